@@ -1,4 +1,4 @@
-//! Annual simulation in the window: acts on commands, starts the job, reads the weather file.
+//! Annual simulation in the window: executes its commands, starts its job, reads the weather file.
 
 use super::command::Command;
 use super::engine::Question;
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl App {
-    /// Acts on a command about the annual simulation.
+    /// Executes a command about the annual simulation.
     pub(super) fn year_act(&mut self, act: YearAct) {
         match act {
             YearAct::Compute => self.compute_year(),
@@ -44,7 +44,8 @@ impl App {
         }
     }
 
-    /// Makes `name` the weather of the scene: of its sky, at the scene's current moment, and of its year.
+    /// Sets the weather file of the scene to `name`, for its sky at the current date and time and for its annual
+    /// simulation.
     fn take_weather(&mut self, name: PathBuf) {
         let scene = &mut self.state.document.scene;
         if let Some(year) = &mut scene.year {
@@ -72,7 +73,7 @@ impl App {
         self.start(Lane::Annual, move |job| Outcome::Annual(engine.year(&question, job).map(Box::new)));
     }
 
-    /// Starts reading the weather file that hours are picked from, if the scene names another one than before.
+    /// Starts reading the weather file from which hours are chosen, if the scene names another one than before.
     pub(super) fn ask_weather(&mut self) {
         let scene = &self.state.document.scene;
         let key = weather_of(scene).map(|name| {
@@ -95,7 +96,7 @@ impl App {
         }
     }
 
-    /// Makes a weather file that was opened or dropped the weather of the scene.
+    /// Sets the weather file of the scene to a file that was opened or dropped on the window.
     pub(super) fn take_weather_file(&mut self, path: &Path) {
         let base = self.state.base();
         // Beside the scene it is found wherever both go.

@@ -1,4 +1,4 @@
-//! Acting on commands: the only place where the window's state changes by the user's actions.
+//! Execution of commands: the only module that changes the window's state by the user's actions.
 
 use super::command::Command;
 use super::export_choices::What;
@@ -17,8 +17,8 @@ use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use crate::texts::shell;
 
 impl App {
-    /// Acts on a command. Its change of the document is one undo step of its own, even directly after another step;
-    /// changes by dragging or by repeated keys are merged into one step when they have come to rest.
+    /// Executes a command. Its change of the document is a separate undo step; changes by dragging or by repeated keys
+    /// are merged into one step once they have ended.
     pub fn apply(&mut self, command: Command) {
         self.steps.keep(&command);
         let step = command.is_step();
@@ -245,7 +245,7 @@ impl App {
         }
     }
 
-    /// Selects a product by its key; a product that the list does not hold is looked up first.
+    /// Selects a product by its key; a product that is not in the list is read from the catalogue first.
     pub(super) fn select_product(&mut self, product: String) {
         let state = &self.state;
         // Chosen already, but the room is lit through something else: it is meant to come there.
@@ -258,14 +258,14 @@ impl App {
         }
     }
 
-    /// Selects a product that was looked up.
+    /// Selects a product that was read from the catalogue.
     pub(super) fn choose_product(&mut self, product: &Product) {
         let (rule, place) = product.representative();
         let state = product.states.get(place).filter(|_| product.states.len() > 1);
         self.choose(product.key.clone(), rule, state.map(|state| state.key.as_str()));
     }
 
-    /// Selects a product, with its own control rule or in its representative state, as one undo step.
+    /// Selects a product, with the control rule that it defines or in its representative state, as one undo step.
     fn choose(&mut self, product: String, rule: FirstRule, state: Option<&str>) {
         end_step(&mut self.undoer, &self.state.document);
         first_choice(&mut self.state.document, product, rule, state);
@@ -283,7 +283,7 @@ impl App {
         }
     }
 
-    /// Lets a control rule pick the state, or fixes the state that is shown.
+    /// Sets the mode of shading control: a control rule that chooses the state, or the current state as a fixed one.
     fn control(&mut self, mode: ControlMode) {
         let product = self.state.document.selection.product.clone();
         let of = self.state.control_of;
@@ -307,8 +307,8 @@ impl App {
         self.set_control(keys);
     }
 
-    /// Sets a control rule with its keys, for the scene or for the aperture that is edited. Shows a message instead if
-    /// the product cannot follow the rule.
+    /// Sets a control rule with its parameters, for the scene or for the aperture that is edited. Shows a message
+    /// instead if the product cannot follow the rule.
     fn set_control(&mut self, keys: ControlKeys) {
         if let Some(known) = self.state.product.as_deref() {
             let problem = if known.states.len() < 2 {
@@ -359,7 +359,7 @@ impl App {
         }
     }
 
-    /// Undoes one step, or redoes one if `forth`; additions to the catalogue follow.
+    /// Redoes one step of the undo history if `forth`, else undoes one, with its changes of the catalogue.
     fn step_history(&mut self, forth: bool) {
         let document = &self.state.document;
         let other = if forth { self.undoer.redo(document) } else { self.undoer.undo(document) };

@@ -1,11 +1,11 @@
-//! Commands that arrange the tiles.
+//! Commands that change the arrangement of the tiles.
 
 use crate::texts::{Text, tiles as say};
 
 /// Predefined arrangement of the tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Preset {
-    /// All tiles side by side, as at a first start.
+    /// All tiles side by side, the arrangement of the first start.
     All,
     /// Tiles for planning a room.
     Designer,
@@ -19,7 +19,7 @@ impl Preset {
     /// All arrangements, in the order of the menu.
     pub const ALL: [Self; 4] = [Self::All, Self::Designer, Self::Maker, Self::Science];
 
-    /// Returns the label in menu and palette.
+    /// Returns the label of the arrangement in menu and command palette.
     pub const fn word(self) -> Text {
         match self {
             Self::All => say::LAYOUT_ALL,
@@ -29,7 +29,7 @@ impl Preset {
         }
     }
 
-    /// Returns the tooltip, one sentence.
+    /// Returns the tooltip of the arrangement, one sentence.
     pub const fn tip(self) -> Text {
         match self {
             Self::All => say::LAYOUT_ALL_TIP,
@@ -40,7 +40,7 @@ impl Preset {
     }
 }
 
-/// Side of a tile.
+/// Side of a tile: left, right, upper or lower.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
     /// Left side.
@@ -68,7 +68,7 @@ impl Way {
     }
 }
 
-/// Change of the arrangement; most concern the tile that was active last.
+/// Command that changes the arrangement of the tiles; most concern the tile that was active last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Arrange {
     /// Apply a predefined arrangement.
@@ -77,13 +77,13 @@ pub enum Arrange {
     Focus(i32),
     /// Move the keyboard focus to the tile on this side.
     FocusOn(Way),
-    /// Bring the next (+1) or previous (−1) tab to the front.
+    /// Bring the next (+1) or previous (−1) tab beside the active tile to the front.
     Tab(i32),
     /// Swap the active tile with the tile on this side.
     Move(Way),
     /// Make the active tile a tab of the next tile.
     Join,
-    /// Take the active tile out of its tabs and put it beside them.
+    /// Move the active tile from its group of tabs to a position beside it.
     Split,
     /// Make the active tile wider (`true`) or narrower.
     Width(bool),

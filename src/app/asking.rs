@@ -1,5 +1,5 @@
-//! Starts computations as soon as their results are visible: a tile behind a tab, or behind a tile that fills the tile
-//! area, asks for nothing.
+//! Starts computations as soon as their results are visible: for a tile that is hidden behind a tab or a maximised
+//! tile, nothing is computed.
 
 use super::due::Geometry;
 use super::engine::{Question, RoomFigures};
@@ -15,7 +15,7 @@ use crate::texts::language;
 /// sensor points are being dragged.
 const AT_ONCE: usize = 96;
 
-/// Relative error allowed in results while dragging and in previews: what the coarsest mesh reaches.
+/// Relative error allowed in the illuminances while dragging and in previews, which the coarsest mesh reaches.
 const DRAGGED: f64 = 0.1;
 
 impl App {
@@ -32,7 +32,7 @@ impl App {
         self.ask_due();
     }
 
-    /// Whether all visible results are complete: nothing is being computed for them and nothing is still to be started.
+    /// Whether all visible results are complete: no computation for them is running or still to be started.
     pub(super) fn standing(&self) -> bool {
         const LANES: [Lane; 8] = [
             Lane::Scene,
@@ -71,8 +71,8 @@ impl App {
         }
     }
 
-    /// Whether the result of a lane is needed. Files may hold results that no visible tile shows: while a file is about
-    /// to be written, all lanes but the surfaces are needed.
+    /// Whether the result of a lane is needed, because a visible tile shows it or because a file is about to be
+    /// written: files may contain results of all lanes but the surfaces.
     fn is_wanted(&self, lane: Lane) -> bool {
         let to_file = matches!(self.state.sheet, Some(Sheet::Path(_))) && lane != Lane::Surfaces;
         let lid_to_file = self.lid_to.is_some() && lane == Lane::Lid;
@@ -103,7 +103,7 @@ impl App {
         }
     }
 
-    /// Reduces the scene to fewer sensor points on a coarser mesh while geometry is dragged; returns whether it did.
+    /// Reduces the scene to fewer sensor points and a coarser mesh while geometry is dragged; returns `true` if it did.
     fn coarsen(&mut self, scene: &mut SceneFile) -> bool {
         let geometry = Geometry::of(scene);
         let moved = self.due.geometry.as_ref().is_some_and(|old| *old != geometry);
@@ -120,7 +120,8 @@ impl App {
         false
     }
 
-    /// Raises the allowed error for a first result behind obstructions, which take longer; returns whether it did.
+    /// Raises the allowed error of the scene for a first, fast result if there are obstructions; returns `true` if it
+    /// did.
     fn preview(&self, scene: &mut SceneFile) -> bool {
         let exact = scene.compute.error_target.is_none_or(|target| target < DRAGGED);
         let first = scene.has_outside() && exact && !self.due.previewed;
@@ -130,7 +131,7 @@ impl App {
         first
     }
 
-    /// Stores a result for the room; after a preview the full result becomes due.
+    /// Stores the illuminances of the room; after a preview, the accurate computation becomes due.
     pub(super) fn take_room(&mut self, result: Result<RoomFigures, AppError>) {
         let preview = result.as_ref().is_ok_and(|room| room.coarse) && !self.due.coarse;
         self.results.room.take(result);

@@ -1,8 +1,9 @@
-//! Session of a window, kept on disk: written within a second of every change, on a separate thread.
+//! Saving of a window's session on disk: within a second of every change, on a separate thread.
 //!
-//! Every window has its own file in the sessions folder, and holds a lock on a file beside it for as long as it lives;
-//! the system releases the lock however the program ends. A session without a lock is one whose window did not close:
-//! the next window that starts restores it. A window that closes leaves its session as `last.json`.
+//! Every window has a separate file in the sessions folder, and a lock on a file beside it while it is open; the
+//! operating system releases the lock however the program ends. A session without a lock belongs to a window that was
+//! not closed regularly; the next window that starts restores it. A window that is closed saves its session as
+//! `last.json`.
 
 use super::clock;
 use super::disk::{ends_in, read_bytes};
@@ -23,50 +24,50 @@ const CLOSED: &str = "session-closed-";
 /// Minimum time between two writes; longer than a fast disk needs and far below a second.
 const PAUSE: Duration = Duration::from_millis(200);
 
-/// Maximum waiting time for what must be written at once. A disk that does not answer must not block the window for
-/// ever.
+/// Maximum time to wait for a session to be written. A disk that does not respond must not block the window.
 const WRITE_TIMEOUT: Duration = Duration::from_secs(5);
-/// Time after the start within which a fault may come from the restored session.
+/// Time after the start within which an internal error is attributed to the restored session.
 const SOON: Duration = Duration::from_secs(60);
-/// Number of such faults in a row after which a session is set aside, because the program must start.
+/// Number of successive internal errors soon after the start after which a session is no longer restored, so that the
+/// program can start.
 const MOST_FAULTS: u32 = 2;
 
-/// Age after which leftovers of killed programs are removed.
+/// Age after which files left by killed programs are removed.
 const OLD: Duration = Duration::from_secs(3600);
 
-/// Sessions that were present at the start.
+/// Sessions that were found on disk when the window started.
 #[derive(Debug, Default)]
 pub struct Found {
-    /// Session to restore.
+    /// Session to restore, if there is one.
     pub kept: Option<Kept>,
-    /// Whether the window of the session did not close.
+    /// Whether the session belongs to a window that was not closed regularly.
     pub lost: bool,
-    /// Sessions that could not be read.
+    /// Errors of the sessions that could not be read.
     pub problems: Vec<SessionError>,
 }
 
 enum Order {
     Write(Box<Snapshot>),
-    /// Request for a reply when everything ordered before is written.
+    /// Request for a reply as soon as all earlier sessions are written.
     Notify(Sender<()>),
-    /// Session to write as the program ends at a fault.
+    /// Session to write when an internal error ends the program.
     Fault(Box<Snapshot>, KeptFault),
     Close,
 }
 
-/// Writer of one window's session.
+/// Writer that saves the session of one window on disk.
 pub struct Autosave {
     folder: PathBuf,
     file: PathBuf,
     lock_file: PathBuf,
-    /// Lock that is held as long as the window lives.
+    /// Lock of the session, held while the window is open.
     lock: Option<File>,
     orders: Sender<Order>,
     problems: Receiver<SessionError>,
     writer: Option<JoinHandle<()>>,
     last: Option<Snapshot>,
     begun: Instant,
-    /// Number of times in a row that the program ended at a fault soon after it had restored this session.
+    /// Number of successive times that an internal error ended the program soon after it had restored this session.
     faults: u32,
 }
 
@@ -108,8 +109,8 @@ fn sessions(folder: &Path) -> Vec<PathBuf> {
 }
 
 impl Autosave {
-    /// Starts to keep a session in a folder. With `take_up` the newest session whose window did not close is restored;
-    /// otherwise the new one starts from the session of the window that was closed last.
+    /// Begins to save a session in a folder, and finds the session to restore: with `take_up` the newest one of a
+    /// window that was not closed regularly, otherwise that of the window that was closed last.
     ///
     /// # Errors
     /// Returns an error if the folder cannot be created or written to.
@@ -193,7 +194,7 @@ impl Autosave {
         }
     }
 
-    /// Queues the window's state for writing, if it has changed. Never waits.
+    /// Queues the state of the window for writing, if it has changed, without waiting.
     pub fn keep(&mut self, state: &super::state::State) {
         if self.last.as_ref().is_some_and(|last| last.is_of(state)) {
             return;
@@ -204,7 +205,7 @@ impl Autosave {
         drop(self.orders.send(Order::Write(Box::new(snapshot))));
     }
 
-    /// Waits until the state kept last is written, or cannot be written.
+    /// Waits until the state queued last is written, or cannot be written.
     pub fn write_now(&self) {
         let (reply, written) = channel();
         if self.orders.send(Order::Notify(reply)).is_ok() {
@@ -213,7 +214,8 @@ impl Autosave {
         }
     }
 
-    /// Writes the session with the report as the program ends at a fault: the next start restores what was kept last.
+    /// Writes the session, with the path of the report, when an internal error ends the program; the next start
+    /// restores the state queued last.
     pub fn end_at_fault(self, report: Option<PathBuf>) {
         let times = if self.begun.elapsed() < SOON { self.faults + 1 } else { 1 };
         if let Some(last) = &self.last {
@@ -227,7 +229,7 @@ impl Autosave {
         self.problems.try_recv().ok()
     }
 
-    /// Closes the session as the window closes: the next window starts from it.
+    /// Saves the session regularly when the window is closed, so that the next window starts from it.
     pub fn close(&mut self) {
         drop(self.orders.send(Order::Close));
         if let Some(writer) = self.writer.take() {
@@ -242,8 +244,8 @@ impl Autosave {
     }
 }
 
-/// Removes what killed programs leave beside their sessions: partly written files, and locks of windows that ended
-/// before they wrote anything. Only what is old: another window may be about to use it.
+/// Removes old files that killed programs left in the sessions folder: partly written files, and locks of windows that
+/// ended before they wrote a session. Recent ones may be in use by another window.
 fn tidy(folder: &Path) {
     let old = |path: &Path| changed(path).and_then(|at| at.elapsed().ok()).is_some_and(|age| age > OLD);
     let Ok(entries) = std::fs::read_dir(folder) else { return };
@@ -265,8 +267,8 @@ fn remove(file: &Path) {
     drop(std::fs::remove_file(file));
 }
 
-/// Writes the ordered sessions until the order to close; of several at once only the last. What is written is safe from
-/// the end of the program at once; a second thread waits for the disk, which takes seconds when it is busy.
+/// Writes the queued sessions until the order to close; of several queued ones only the last. A written session
+/// survives the end of the program at once; a second thread waits until it is safe on the disk, which may take seconds.
 fn write_all(file: &Path, orders: &Receiver<Order>, errors: &Sender<SessionError>) {
     let (written, waiting) = channel::<File>();
     std::thread::scope(|scope| {

@@ -1,4 +1,5 @@
-//! Services of the window in production: catalogue file, study, luminaire files.
+//! Implementations of the window's interfaces by the real program: catalogue file, computations of the study, luminaire
+//! files.
 
 use super::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
 use super::error::AppError;
@@ -36,12 +37,12 @@ use std::time::Instant;
 /// Catalogue file, accessed by one request at a time.
 struct CatalogueShelf {
     catalogue: Mutex<Catalogue>,
-    /// Separate connection for data that are computed in the background, if they are: packing and writing them does not
-    /// block readers.
+    /// Separate connection for data that are computed in the background, so that compressing and writing them does not
+    /// block readers; `None` without such computations.
     filler: Option<Mutex<Catalogue>>,
     /// States that are being computed because a request waits for them.
     in_progress: StatesInProgress,
-    /// States that cannot be computed; each was tried once.
+    /// States whose computation has failed; each is tried only once.
     failing: Mutex<Vec<StateKey>>,
 }
 
@@ -63,7 +64,7 @@ pub fn memory_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     Ok(Arc::new(CatalogueShelf::new(Mutex::new(Catalogue::in_memory()?), None)))
 }
 
-/// Creates a catalogue in memory with only the two ideal systems that every comparison starts from.
+/// Creates a catalogue in memory with only the two ideal systems (clear and Lambertian), the references of comparisons.
 pub fn ideals_shelf() -> Result<Arc<dyn Shelf>, AppError> {
     let shelf = CatalogueShelf::new(Mutex::new(Catalogue::empty_in_memory()?), None);
     for (name, btdf) in [("Clear opening", Btdf::ideal_transparent(1.0)), ("Ideal diffuser", Btdf::ideal_diffuse(0.6))]
@@ -275,10 +276,11 @@ impl Shelf for CatalogueShelf {
     }
 }
 
-/// Study with its caches.
+/// Engine of the window that computes by the study, with the caches of its sessions.
 pub struct StudyEngine {
     session: Session,
-    /// Session for rankings, which run through many products; the cached light of the scene stays in `session`.
+    /// Session for rankings, which run through many products, so that the cached results of the scene stay in
+    /// `session`.
     ranking: Session,
     files: Arc<Library>,
 }
@@ -290,7 +292,7 @@ impl Default for StudyEngine {
 }
 
 impl StudyEngine {
-    /// Creates an engine that takes the files named by systems, and the catalogue named by their layers, from `files`.
+    /// Creates an engine that reads dataset files, and catalogue products used as layers, from the library `files`.
     pub fn new(files: Arc<Library>) -> Self {
         Self { session: Session::new(), ranking: Session::passing(), files }
     }

@@ -1,15 +1,15 @@
-//! Commands of the product list beside searching: its display, collections, subscriptions.
+//! Commands of the product list, except for searching: display, collections, subscriptions.
 
 use std::path::PathBuf;
 
-/// Command about the product list.
+/// Command about the product list, except for searching.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum CatalogueCommand {
     /// Show the products as a gallery of pictures, or as a list.
     Gallery,
     /// Select the first product of the list, and give it the keyboard.
     First,
-    /// Show only products that were shown last, or all.
+    /// Show only recently selected products, or all.
     Recent,
     /// Set or remove the star of the selected product.
     Star,
@@ -24,7 +24,7 @@ pub enum CatalogueCommand {
     },
     /// Remove all products from a collection.
     Disband(String),
-    /// Set the name of a new collection, as typed.
+    /// Set the name of a new collection in its text field.
     EditName(String),
     /// Ask for a folder of packages to subscribe to.
     Subscribe,

@@ -1,4 +1,4 @@
-//! Undoable changes to products of the catalogue, and the sheet in which they are made.
+//! Undoable changes to products of the catalogue, and the data of the sheet (side panel) in which they are made.
 
 use super::error::AppError;
 use super::import::{ImportFields, StateWords};
@@ -7,24 +7,24 @@ use crate::catalogue::{Event, Product, Replacement, Snapshot, StateName, Words};
 use crate::texts::catalogue as text;
 use std::sync::Arc;
 
-/// Change to a product of the catalogue, kept so that undo can revert it and redo make it again.
+/// Change of the catalogue, stored so that undo can revert it and redo make it again.
 #[derive(Debug, Clone)]
 pub enum Change {
-    /// Product deleted; it can be restored.
+    /// Deletion of a product, which can be restored.
     Deleted {
         /// Key of the product.
         key: String,
         /// Name of the product.
         name: String,
     },
-    /// Star of a product set or removed.
+    /// Star of a product that was set or removed.
     Starred {
         /// Key of the product.
         key: String,
         /// Whether the star was set.
         on: bool,
     },
-    /// Products added to a collection, or removed from it.
+    /// Addition of products to a collection, or their removal from it.
     Collected {
         /// Name of the collection.
         name: String,
@@ -33,14 +33,14 @@ pub enum Change {
         /// Whether the products were added.
         put: bool,
     },
-    /// Subscription to a folder of packages started or ended.
+    /// Start or end of the subscription to a folder of packages.
     Subscribed {
         /// Path of the folder.
         folder: String,
         /// Whether the subscription was started.
         on: bool,
     },
-    /// Descriptive texts of a product changed.
+    /// Change of the descriptive texts of a product (name, maker, kind, …).
     Described {
         /// Key of the product.
         key: String,
@@ -49,7 +49,7 @@ pub enum Change {
         /// Texts after the change.
         after: Words,
     },
-    /// Names and angles of the states of a product changed.
+    /// Change of names and angles of a product's states.
     Named {
         /// Key of the product.
         key: String,
@@ -58,7 +58,7 @@ pub enum Change {
         /// Names after the change, in the order of the states.
         after: Vec<StateName>,
     },
-    /// Data of some states of a product replaced.
+    /// Replacement of the data of some states of a product.
     Replaced {
         /// Key of the product.
         key: String,
@@ -70,12 +70,12 @@ pub enum Change {
 }
 
 impl Change {
-    /// Whether the change affects no figure: stars, collections, subscriptions.
+    /// Whether the change has no effect on data and figures: stars, collections, subscriptions.
     pub const fn is_mark(&self) -> bool {
         matches!(self, Self::Starred { .. } | Self::Collected { .. } | Self::Subscribed { .. })
     }
 
-    /// Makes the change if `forth`, or reverts it.
+    /// Makes the change in the catalogue if `forth`, else reverts it.
     ///
     /// # Errors
     /// Returns the errors of the catalogue.
@@ -97,12 +97,12 @@ impl Change {
     }
 }
 
-/// Contents of the sheet of a product.
+/// Data of a product that its sheet shows: product, history, files.
 #[derive(Debug, Clone)]
 pub struct Looked {
-    /// Product as stored.
+    /// Product as stored in the catalogue.
     pub product: Arc<Product>,
-    /// Events of the product, newest first.
+    /// History of the product's changes, newest first.
     pub history: Vec<Event>,
     /// Paths of the files that the product was read from.
     pub paths: Vec<String>,
@@ -113,24 +113,24 @@ pub struct Looked {
 /// Result of reading the files of a product again.
 #[derive(Debug, Clone)]
 pub struct Reread {
-    /// Differences from the stored product, one line per state.
+    /// Differences of the files from the stored product as text, one line per state.
     pub differences: Vec<String>,
     /// Change that applies the differences; `None` if there are none.
     pub change: Option<Change>,
 }
 
-/// Sheet for editing a product.
+/// State of the sheet (side panel) for editing a product.
 #[derive(Debug, Clone)]
 pub struct Editing {
     /// Key of the product.
     pub key: String,
     /// Stored product and its history.
     pub looked: Looked,
-    /// Texts as stored.
+    /// Descriptive texts as stored in the catalogue.
     pub before: Words,
-    /// Texts as typed.
+    /// Descriptive texts as the user has typed them.
     pub fields: ImportFields,
-    /// States as typed.
+    /// Names and angles of the states as the user has typed them.
     pub states: Vec<StateWords>,
     /// Result of reading the product's files again.
     pub reread: Option<Reread>,
@@ -179,7 +179,7 @@ impl Editing {
         }
     }
 
-    /// Returns the first error in what was typed, as a sentence.
+    /// Returns the first error in the typed texts as a sentence; `None` if they are valid.
     pub fn problem(&self) -> Option<String> {
         if self.fields.name.trim().is_empty() {
             return Some(text::NEEDS_A_NAME.into());
@@ -189,7 +189,7 @@ impl Editing {
         Some(text::no_angle(wrong.angle.trim()))
     }
 
-    /// Returns the changes from the stored product to what was typed.
+    /// Returns the changes that convert the stored product to the typed one.
     pub fn changes(&self) -> Vec<Change> {
         let mut list = Vec::new();
         let (key, after) = (self.key.clone(), self.words());

@@ -1,4 +1,4 @@
-//! Ranking of products for a façade in the window: input, results per product, and progress.
+//! Ranking of products for a façade in the window: input, results per product, progress.
 
 use super::shelf::Query;
 use super::year::usual_year;
@@ -23,50 +23,49 @@ pub enum ChooseAct {
     Rank,
     /// Change the display settings of the ranking.
     Look(Box<Look>),
-    /// Set the objectives; `true` if one was added or removed, which is an undo step.
+    /// Set the objectives of the ranking; `true` if one was added or removed, which is an undo step.
     Objectives(Vec<ObjectiveKeys>, bool),
-    /// Put the product with this key into the room as it was ranked.
+    /// Use the product with this key in the scene's room, with the control with which it was ranked.
     IntoRoom(String),
 }
 
 impl ChooseAct {
-    /// Whether the change of the document is an undo step of its own. Positions of a slider while it is dragged are
-    /// not.
+    /// Whether the command's change of the document is a separate undo step; changes while a slider is dragged are not.
     pub const fn is_step(&self) -> bool {
         matches!(self, Self::Rank | Self::Objectives(_, true) | Self::IntoRoom(_))
     }
 }
 
-/// Input that the figures of a ranking depend on, beside the products' own data.
+/// Input that the figures of a ranking depend on, except for the data of the products.
 #[derive(Debug, Clone)]
 pub struct Asked {
-    /// Scene without its moment, with the ranked apertures left open.
+    /// Scene without date and time, with no system in the apertures for which products are ranked.
     pub scene: SceneFile,
-    /// Folder that relative paths of the scene start from.
+    /// Folder to which the paths in the scene are relative.
     pub base: PathBuf,
-    /// Source of the control rule by which products are moved.
+    /// Source of the control rule that chooses the states of the products: the product or the scene.
     pub control: RankControlKey,
     /// Search that selects the products.
     pub query: Query,
-    /// Additions and changes of this session that are in effect.
+    /// Numbers of the additions to the catalogue and of the changes of products that are in effect in this session.
     catalogue: (Vec<usize>, Vec<usize>),
 }
 
-/// Products among which a ranking chooses.
+/// Selection of the products to rank: search, recent products, changes of the catalogue.
 #[derive(Debug, Clone, Copy)]
 pub struct Asking<'a> {
     /// Display settings of the ranking.
     pub look: &'a Look,
-    /// Search of the catalogue.
+    /// Search of the catalogue that selects the products.
     pub query: &'a Query,
-    /// Keys of products that were shown last.
+    /// Keys of recently selected products.
     pub recent: &'a [String],
-    /// Additions and changes of this session that are in effect.
+    /// Numbers of the additions to the catalogue and of the changes of products that are in effect in this session.
     pub catalogue: [&'a [usize]; 2],
 }
 
-/// Returns the apertures that products are put into: the chosen one; else those that a scene leaves open, those that
-/// are filled from the catalogue, or the first.
+/// Returns the indices of the apertures for which products are ranked: the chosen one; else those without a system in
+/// the scene, those with a product of the catalogue, or the first.
 pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> {
     let all = |fits: fn(&SystemKeys) -> bool| -> Vec<usize> {
         (0..scene.aperture.len()).filter(|&place| fits(&scene.aperture[place].system)).collect()
@@ -83,8 +82,8 @@ pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> 
     }
 }
 
-/// Returns the scene with the apertures open. If the scene was not written for a ranking, the control rule of the
-/// product in the room is not applied to other products.
+/// Returns the scene without a system in the given apertures. If the scene was not written for a ranking, the control
+/// rule of the product in the room is not applied to other products.
 fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> SceneFile {
     let written = scene.aperture.iter().any(|one| one.system == SystemKeys::Ranked);
     let mut open = SceneFile { rank: None, ..question(scene) };
@@ -106,7 +105,7 @@ fn opened(scene: &SceneFile, places: &[usize], control: RankControlKey) -> Scene
 }
 
 impl PartialEq for Asked {
-    /// Compares two inputs; without files in the scene, the folder does not matter.
+    /// Compares two inputs; the folder counts only if the scene refers to files.
     fn eq(&self, other: &Self) -> bool {
         self.scene == other.scene
             && self.query == other.query
@@ -117,7 +116,8 @@ impl PartialEq for Asked {
 }
 
 impl Asked {
-    /// Creates the input from a scene and the folder of its relative paths; `None` for a room without an aperture.
+    /// Creates the input of a ranking from a scene and the folder to which its paths are relative; `None` for a room
+    /// without an aperture.
     pub fn of(scene: &SceneFile, base: PathBuf, asking: &Asking<'_>) -> Option<Self> {
         let look = asking.look;
         let places = ranked_apertures(scene, look.aperture);
@@ -139,7 +139,8 @@ impl Asked {
         (!places.is_empty()).then_some(Self { scene: open, base, control, query, catalogue })
     }
 
-    /// Returns the one group of the ranking; weights of the objectives have no effect on it.
+    /// Returns the group of products to rank, with the figures to compute; weights of the objectives have no effect on
+    /// it.
     pub fn group(&self, figures: &[ObjectiveKeys], products: Arc<[Product]>) -> Result<Group, StudyError> {
         let keys = RankKeys { objective: figures.to_vec(), ..RankKeys::default() };
         let climate = self.scene.year.as_ref().map(|year| year.weather.display().to_string());
@@ -165,7 +166,8 @@ pub fn objectives_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     }
 }
 
-/// Returns the figures that are computed of every product: the objectives, and those that add almost no computing time.
+/// Returns the figures that are computed for every product: the objectives, and figures that add almost no computing
+/// time.
 pub fn figures_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     let mut list = objectives_of(scene);
     for one in offered(scene.year.as_ref().unwrap_or(&usual_year(scene))) {
@@ -176,21 +178,21 @@ pub fn figures_of(scene: &SceneFile) -> Vec<ObjectiveKeys> {
     list
 }
 
-/// Results of a ranking, as far as they are known.
+/// Results of a ranking, of those products for which they are known.
 #[derive(Debug, Clone)]
 pub struct Figures {
-    /// Input of the ranking.
+    /// Input that the results belong to.
     pub asked: Asked,
-    /// List without rows.
+    /// Ranked list without rows: objectives, weather and scene.
     head: List,
-    /// All products that were found.
+    /// All products that the search found.
     pub products: Arc<[Product]>,
-    /// Results by product key.
+    /// Results of the products, by their keys.
     pub known: BTreeMap<String, Arc<Known>>,
 }
 
 impl Figures {
-    /// Creates results with no product known yet.
+    /// Creates results without any product yet.
     pub fn of(asked: Asked, group: &Group) -> Self {
         let head = List {
             number: 0,
@@ -204,7 +206,7 @@ impl Figures {
         Self { asked, head, products: Arc::clone(&group.products), known: BTreeMap::new() }
     }
 
-    /// Returns the number of products whose figures are preliminary or not known.
+    /// Returns the number of products whose figures are preliminary or not computed yet.
     pub fn unfinished(&self) -> usize {
         self.products.len() - self.known.values().filter(|one| one.stage == Stage::Full).count()
     }
@@ -214,7 +216,7 @@ impl Figures {
         self.known.values().all(|one| one.has(std::slice::from_ref(figure)))
     }
 
-    /// Returns the products ranked by objectives, under a name of the scene.
+    /// Returns the products ranked by the given objectives; `scene`: name of the scene in the list.
     ///
     /// # Errors
     /// Returns an error if an objective is not valid.
@@ -231,24 +233,25 @@ impl Figures {
     }
 }
 
-/// Progress of a ranking.
+/// Progress of a running ranking in its current stage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pace {
-    /// Stage that the counts are for.
+    /// Current stage of the computation.
     pub stage: Stage,
-    /// Number of products that are done.
+    /// Number of products that are finished in the stage.
     pub done: usize,
     /// Number of products of the stage.
     pub all: usize,
-    /// Start of the stage.
+    /// Time at which the stage began.
     since: Instant,
-    /// Time from the start of the stage to the last finished product. Not read from the clock in every frame, so that
-    /// the displayed time does not change between products.
+    /// Time from the start of the stage to the last finished product, updated only then, so that the displayed time
+    /// does not change between products.
     spent: Duration,
 }
 
 impl Pace {
-    /// Returns the estimated time left in the stage, from the mean time per finished product. \[s\]
+    /// Returns the estimated remaining time of the stage, from the mean time per finished product; `None` before the
+    /// first. \[s\]
     pub fn left(&self) -> Option<f64> {
         let each = self.spent.as_secs_f64() / self.done.max(1) as f64;
         (self.done >= 3 && self.stage == Stage::Full).then(|| each * (self.all - self.done) as f64)
@@ -265,7 +268,7 @@ impl Board {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Stores the results that are known at the start, and the number of products to compute.
+    /// Stores the results that are known at the start, and the number `all` of products to compute.
     pub fn begin(&self, figures: Figures, all: usize) {
         let mut board = self.lock();
         let pace = Pace { stage: Stage::Coarse, done: 0, all, since: Instant::now(), spent: Duration::ZERO };
@@ -289,7 +292,7 @@ impl Board {
         }
     }
 
-    /// Returns the results with their number, if that is not `than`.
+    /// Returns the results with their revision number, if this differs from `than`.
     pub fn newer(&self, than: u64) -> Option<(u64, Figures)> {
         let board = self.lock();
         let figures = board.1.as_ref().filter(|_| board.0 != than)?;

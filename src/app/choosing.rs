@@ -1,5 +1,5 @@
-//! Ranking in the window: products are ranked in a job, results are shown as they come, the chosen product is put into
-//! the room.
+//! Ranking in the window: products are computed in a job, results are shown as they become available, and the chosen
+//! product can be used in the room.
 
 use super::choose::{Asked, Asking, Board, ChooseAct, Figures, figures_of, objectives_of, ranked_apertures};
 use super::engine::Engine;
@@ -23,10 +23,10 @@ use crate::study::scene_file::SystemKeys;
 use crate::texts::{choose as say, shell, year as of_year};
 use std::sync::Arc;
 
-/// Number of earlier rankings that are kept.
+/// Number of earlier rankings whose results are stored.
 const KEPT: usize = 8;
 
-/// Returns the ranking input of the window as it is; `None` for a room without an aperture.
+/// Returns the ranking input for the current state of the window; `None` for a room without an aperture.
 fn asked_by(state: &State) -> Option<Asked> {
     let (document, settings) = (&state.document, &state.settings);
     let asking = Asking {
@@ -39,7 +39,7 @@ fn asked_by(state: &State) -> Option<Asked> {
 }
 
 impl App {
-    /// Acts on a command about the ranking.
+    /// Executes a command about the ranking.
     pub(super) fn choose_act(&mut self, act: ChooseAct) {
         match act {
             ChooseAct::Rank => self.rank(),
@@ -82,7 +82,7 @@ impl App {
         });
     }
 
-    /// Reads the results of a ranking since the last frame, and shows those of the current input.
+    /// Reads the results that a ranking has produced since the last frame, and shows those of the current input.
     pub(super) fn follow_ranking(&mut self) {
         if let Some((board, seen)) = &mut self.choosing.board {
             self.results.rank_pace = board.pace().filter(|_| self.jobs.busy(Lane::Rank));
@@ -116,7 +116,7 @@ impl App {
         self.keep_ranking();
     }
 
-    /// Keeps the current results, so that they can be shown again.
+    /// Stores the results of the current ranking, so that they can be shown again.
     pub(super) fn keep_ranking(&mut self) {
         let Some(figures) = self.results.rank.value.clone() else { return };
         let kept = &mut self.choosing.kept;
@@ -134,7 +134,8 @@ impl App {
         list.ok().map(Arc::new)
     }
 
-    /// Puts a product into the room as it was ranked: by its own control rule or the scene's, into the same apertures.
+    /// Uses a product in the scene as it was ranked: in the same apertures, with the control rule of the product or of
+    /// the scene.
     fn ranked_into_room(&mut self, key: &str) {
         let Some(figures) = self.results.rank.value.clone() else { return };
         let Some(product) = figures.products.iter().find(|one| one.key == key) else { return };
@@ -175,7 +176,7 @@ impl App {
     }
 }
 
-/// Finds the products of an input and computes those without results.
+/// Runs a ranking in a job: finds the products of an input and computes those without results.
 fn ranked(
     asked: Asked,
     figures: &[ObjectiveKeys],

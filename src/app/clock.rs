@@ -5,7 +5,7 @@ use crate::texts::{Text, scene as texts};
 use jiff::Timestamp;
 use jiff::civil::Date;
 
-/// Names of the months: short names in English, numbers in German, as short dates are written.
+/// Names of the months in short dates: short names in English, numbers in German.
 const MONTHS: [Text; 12] = [
     texts::JANUARY,
     texts::FEBRUARY,
@@ -47,8 +47,8 @@ pub fn stamp() -> String {
     zoned().timestamp().to_string()
 }
 
-/// Returns a time stamp as text in the user's time zone: the clock time if it is of today, else with its date. Returns
-/// the text unchanged if it is not a time stamp.
+/// Returns a time stamp (UTC) as text in the user's time zone: the time of day if it is of today, else with its date.
+/// Returns the text unchanged if it is not a time stamp.
 pub fn words(stamp: &str) -> String {
     let Ok(time) = stamp.parse::<Timestamp>() else { return stamp.to_owned() };
     let now = zoned();

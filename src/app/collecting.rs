@@ -1,5 +1,5 @@
-//! Product list beside searching: recent products, stars, collections, folders of packages. Undo covers everything that
-//! is stored.
+//! Functions of the product list, except for searching: recent products, stars, collections, folders of packages. Undo
+//! covers all changes that are stored.
 
 use super::catalogue_command::CatalogueCommand;
 use super::changes::Change;
@@ -13,11 +13,11 @@ use crate::study::subscriptions::folder_of;
 use crate::texts::catalogue as words;
 use std::path::PathBuf;
 
-/// Maximum number of recently shown products that are remembered.
+/// Maximum number of recently selected products that are remembered.
 const RECENT: usize = 20;
 
 impl App {
-    /// Acts on a command about the product list.
+    /// Executes a command about the product list.
     pub(super) fn apply_catalogue_command(&mut self, what: CatalogueCommand) {
         match what {
             CatalogueCommand::Gallery => self.state.settings.gallery ^= true,
@@ -68,7 +68,7 @@ impl App {
         }
     }
 
-    /// Selects the first product of the list once the list is that of the typed search.
+    /// Selects the first product of the list as soon as the list shows the result of the typed search.
     pub(super) fn choose_first(&mut self) {
         if self.jobs.busy(Lane::Catalogue) || !std::mem::take(&mut self.state.first_due) {
             return;
@@ -88,7 +88,7 @@ impl App {
         self.mark(Change::Starred { key, on });
     }
 
-    /// Makes a change that affects no figure, as an undo step of its own.
+    /// Makes a change that has no effect on figures (star, collection, subscription), as a separate undo step.
     fn mark(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
@@ -98,7 +98,7 @@ impl App {
         self.make_change(number, true);
     }
 
-    /// Records the selected product as the one shown last.
+    /// Records the selected product as the most recent one.
     pub(super) fn note_shown(&mut self) {
         let key = &self.state.document.selection.product;
         let recent = &mut self.state.settings.recent;
@@ -110,7 +110,7 @@ impl App {
         recent.truncate(RECENT);
     }
 
-    /// Asks for a folder to subscribe to: in the path field at once, with the desktop's dialog beside it.
+    /// Asks for a folder to subscribe to, in the path field of the sheet and in a dialog of the desktop.
     fn ask_subscription(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Subscribe));
@@ -123,7 +123,7 @@ impl App {
         });
     }
 
-    /// Subscribes to a folder after checking that it is one.
+    /// Subscribes to a path after checking that it is a folder.
     fn subscribe(&mut self, path: PathBuf) {
         self.remember_folder(&path);
         self.queue(move |_| Outcome::Folder(folder_of(&path)));
@@ -144,7 +144,7 @@ impl App {
         }
     }
 
-    /// Looks up collections and subscriptions.
+    /// Reads collections and subscriptions from the catalogue.
     pub(super) fn look_up_sets(&mut self) {
         self.queue(|shelf| {
             let sets = || {

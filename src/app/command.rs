@@ -1,5 +1,5 @@
-//! All commands of the window in one enum. Drawing returns them, [`super::apply`] is the only place that acts on them,
-//! and [`super::offer`] lists those that menu, palette and keys offer.
+//! All commands of the window in one enum. Drawing functions return them, [`super::apply`] executes them, and
+//! [`super::offer`] lists those in menus, command palette and keyboard shortcuts.
 
 use super::arrange::Arrange;
 use super::catalogue_command::CatalogueCommand;
@@ -26,7 +26,7 @@ use crate::study::data_form::DataForm;
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
 use std::path::PathBuf;
 
-/// Name of the field in which a system file is typed.
+/// Name of the text field in which a system file is typed.
 pub const SYSTEM_EDITOR: &str = "system file";
 
 /// Command of the window.
@@ -36,31 +36,31 @@ pub enum Command {
     Open,
     /// Ask where to save the scene.
     SaveScene,
-    /// Export the LID.
+    /// Export the LID of the first aperture as a luminaire file.
     ExportLid,
     /// Export a tile, as a picture or as numbers.
     ExportTile(Tile),
-    /// Set the choices of the export: content, format and options.
+    /// Set the choices of the export dialog: content, format and options.
     ExportChoices(Box<Choices>),
     /// Ask for folder and name of the export.
     BrowseExport,
-    /// Copy a tile's numbers to the clipboard.
+    /// Copy the numbers of a tile to the clipboard as a table.
     CopyTile(Tile),
     /// Copy a tile as a picture to the clipboard.
     CopyPicture(Tile),
-    /// Copy the line under the tile that the pointer was on last to the clipboard.
+    /// Copy the value line under the tile that was last under the pointer to the clipboard.
     CopyValue,
-    /// Set the incident direction that tiles draw for; `None`: that of the sun.
+    /// Set the incident direction for which tiles show the light distribution; `None`: that of the sun.
     Incidence(Option<Incident>),
-    /// Set the form in which the BTDF tile shows the data.
+    /// Set which data the BTDF tile shows: original, filtered or compressed.
     DataForm(DataForm),
-    /// Show or hide the map of interpolation schemes between the directions of the data.
+    /// Show or hide the map of interpolation schemes between the incident directions of the data.
     SchemeMap,
-    /// Set the control rule that picks the state.
+    /// Set the mode of shading control, by which the state is chosen.
     Control(ControlMode),
-    /// Set the control rule with all its keys.
+    /// Set the shading control with all its parameters.
     ControlKeys(Box<ControlKeys>),
-    /// Show and edit the control rule of one aperture (from 0), or of the scene if `None`.
+    /// Show and edit the shading control of one aperture (counted from 0), or that of the scene if `None`.
     ControlOf(Option<usize>),
     /// Close the window.
     Quit,
@@ -70,131 +70,131 @@ pub enum Command {
     Redo,
     /// Put the cursor into the search field.
     Search,
-    /// Note that the field of the opened sheet has the keyboard.
+    /// Record that the text field of the opened sheet has received the keyboard focus.
     KeyboardTaken,
     /// Open or close the command palette.
     Palette,
-    /// Fill the tile area with a tile, or show all.
+    /// Maximise a tile over the tile area, or show all tiles if `None`.
     Maximise(Option<Tile>),
     /// Arrange the tiles.
     Arrange(Arrange),
-    /// Set how the room is drawn.
+    /// Set the display settings of the room tile.
     RoomLook(RoomLook),
-    /// Set the view of the room.
+    /// Set the view of the room tile: plan, section or perspective.
     RoomView(RoomView),
-    /// Move the scene's clock. \[h\]
+    /// Change the time of the scene by this number of hours. \[h\]
     Hour(i32),
-    /// Move the scene's date. \[d\]
+    /// Change the date of the scene by this number of days. \[d\]
     Day(i32),
-    /// Select the next (+1) or previous (−1) state.
+    /// Select the next (+1) or previous (−1) state of the product.
     NextState(i32),
-    /// Show or hide the left panel.
+    /// Show or hide the catalogue panel at the left.
     ToggleCatalogue,
-    /// Show or hide the right panel.
+    /// Show or hide the scene panel at the right.
     ToggleScene,
     /// Set the theme: light, dark, or that of the desktop.
     Theme(ThemeChoice),
-    /// Set larger or smaller text.
+    /// Set a larger or smaller text size.
     TextSize(TextSize),
     /// Start or leave the tour.
     Tour(TourAct),
     /// Set the language.
     Language(LanguageChoice),
-    /// Reset the scene to that of a first start.
+    /// Reset the scene to that of the first start.
     ResetScene,
-    /// Open or close a sheet.
+    /// Open a sheet (side panel), or close it if `None`.
     Sheet(Option<Sheet>),
-    /// Cancel the job of a lane.
+    /// Cancel the running job of a lane.
     Cancel(Lane),
-    /// Select a product, with its own control rule or in its representative state.
+    /// Select the product with this key, with the control rule that it defines or in its representative state.
     Select(String),
-    /// Select a state.
+    /// Select the state with this key.
     SelectState(String),
-    /// Move the keyboard's row in the list, and select its product.
+    /// Move the keyboard focus in the product list by this number of rows, and select the product there.
     Row(i32),
     /// Replace the scene.
     Scene(Box<SceneFile>),
-    /// Act on the annual simulation or the weather.
+    /// Command about the annual simulation or the weather.
     Year(YearAct),
-    /// Act on the ranking.
+    /// Command about the ranking.
     Choose(ChooseAct),
     /// Add, duplicate or remove an obstruction.
     Outside(outside::Act),
-    /// Compute the effect of every obstruction on the apertures' illuminance.
+    /// Compute the effect of every obstruction on the illuminance of the apertures.
     WeighObstructions,
     /// Search the catalogue.
     Find(Query),
-    /// Set or remove a star.
+    /// Set (`true`) or remove the star of the product with this key.
     Favourite(String, bool),
-    /// Read files.
+    /// Read these files and folders.
     OpenPaths(Vec<PathBuf>),
     /// Write to a path, and overwrite an existing file.
     Write(PathUse, PathBuf),
-    /// Write to a path, but ask first if the file exists.
+    /// Write to a path, but ask the user first if the file exists.
     WriteNew(PathUse, PathBuf),
-    /// Keep the existing file, so that another name can be typed.
+    /// Leave the existing file unchanged, so that another name can be typed.
     KeepFile,
-    /// Edit the path that is being typed.
+    /// Set the text of the path field.
     EditPath(String),
-    /// Edit the text of the palette.
+    /// Set the text of the command palette.
     EditPalette(String),
-    /// Select the row of the palette that Enter activates.
+    /// Select the row of the command palette that Enter activates, counted from 0.
     PaletteRow(usize),
-    /// Fill in what a product of an import lacks (its number from 0).
+    /// Set the texts of a product of the import, given by its number (from 0).
     EditImport(usize, Box<ImportFields>),
-    /// Group the imported files into products in another way.
+    /// Change the grouping of the imported files into products.
     GroupImport(Grouping),
-    /// Store a product of an import although it is in the catalogue, or not.
+    /// Set whether a product of the import (number from 0) is stored although its data are in the catalogue already.
     AddAnyway(usize, bool),
-    /// Try a repair on an imported product.
+    /// Apply a repair to a product of the import (number from 0), undoable.
     Repair(usize, Repair),
-    /// Undo the last repair of an imported product.
+    /// Undo the last repair of a product of the import (number from 0).
     UndoRepair(usize),
-    /// Store the imported products.
+    /// Store the products of the import in the catalogue.
     AddImport,
-    /// Discard the import.
+    /// Discard the open import.
     DiscardImport,
-    /// Discard a draft of an import.
+    /// Discard a draft of an import, given by its number (from 0).
     DiscardDraft(usize),
-    /// Continue a draft of an import.
+    /// Continue a draft of an import, given by its number (from 0).
     OpenDraft(usize),
-    /// Keep the import as a draft.
+    /// Store the open import as a draft.
     KeepDraft,
-    /// Act on the table of the import.
+    /// Command about the table of the import.
     Import(Step),
-    /// Run the current scene with rising effort by every method.
+    /// Compute error against computing time: run the current scene with rising effort by every method.
     MeasureAccuracy,
-    /// Fill the goniophotometer's sheet with an example.
+    /// Load an example, given by its number (from 0), into the sheet of the virtual goniophotometer.
     SystemExample(usize),
-    /// Edit the text of the system file.
+    /// Set the text of the system file in the sheet of the virtual goniophotometer.
     EditSystem(String),
     /// Set the bases and the accuracy of the virtual goniophotometer.
     SystemSetup(Setup),
-    /// Draw this state of the described system.
+    /// Draw the section of this state (number from 0) of the described system.
     DrawState(usize),
     /// Compute all states of the described system; a stopped run resumes.
     MeasureSystem,
-    /// Store the computed states.
+    /// Store the states computed by the virtual goniophotometer in the catalogue.
     AddMeasured,
-    /// Ask where to write the computed states.
+    /// Ask for a path to which the states computed by the virtual goniophotometer are written.
     ExportMeasured,
     /// Open the catalogue again after a failure.
     RetryCatalogue,
-    /// Edit the texts of the product with this key; of the selected one if `None`.
+    /// Open the sheet for editing the product with this key, or the selected one if `None`.
     EditProduct(Option<String>),
-    /// Set the texts of a product, as typed.
+    /// Set the texts of the edited product, as typed.
     EditWords(Box<ImportFields>),
-    /// Set name and angle of a state of the product (its number from 0), as typed.
+    /// Set name and angle of a state (number from 0) of the edited product, as typed.
     EditState(usize, StateWords),
-    /// Store the texts that were typed for the product.
+    /// Store the typed texts of the edited product in the catalogue.
     SaveWords,
-    /// Ask for a file that replaces the data of a state of the product.
+    /// Ask for a file that replaces the data of the state with this key of the edited product.
     ReplaceState(String),
-    /// Read the files of the product again, and show what changed.
+    /// Read the files of the edited product again, and show the differences.
     Reread,
-    /// Apply the changes found by reading the files again.
+    /// Apply the differences found by reading the files again.
     TakeChanges,
-    /// Read the folders of packages that are subscribed to.
+    /// Read the subscribed folders of packages again.
     SyncSubscribed,
     /// Ask for a folder to open.
     OpenFolder,
@@ -202,23 +202,23 @@ pub enum Command {
     DeleteProduct(Option<String>),
     /// Restore a deleted product.
     RestoreProduct(String),
-    /// Hide a message; all if `None`.
+    /// Hide the message with this number; all messages if `None`.
     Dismiss(Option<u64>),
     /// Remove all messages.
     ForgetMessages,
-    /// Copy the report on a fault to the clipboard.
+    /// Copy the report on an internal error, stored at this path, to the clipboard.
     CopyReport(PathBuf),
-    /// Act on the product list.
+    /// Command about the product list.
     Catalogue(CatalogueCommand),
-    /// Act on the comparison.
+    /// Command about the comparison.
     Compare(Act),
-    /// List products that are optically similar to this one; to the selected one if `None`.
+    /// List products that are optically similar to the product with this key, or to the selected one if `None`.
     Like(Option<String>),
 }
 
 impl Command {
-    /// Whether the change of the document is an undo step of its own. Changes by dragging, or by a key that is held,
-    /// are not.
+    /// Whether the command's change of the document is a separate undo step. Changes by dragging, or by a key that is
+    /// held down, are not.
     pub const fn is_step(&self) -> bool {
         match self {
             Self::Year(act) => act.is_step(),

@@ -1,55 +1,56 @@
-//! Comparison in the window: its commands, and how it is shown. The list of candidates is part of the scene
+//! Comparison in the window: its commands and display settings. The list of candidates is part of the scene
 //! ([`CompareKeys`](crate::study::scene_file::CompareKeys)).
 
 use crate::texts::compare as texts;
 
-/// Command about the comparison. Numbers are places in the list of candidates, from 0.
+/// Command about the comparison. Numbers are positions in the list of candidates, from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Act {
-    /// Add what is shown: product and state, or control rule. Everything else follows the scene.
+    /// Add the current product with its state or control rule as a candidate; everything else follows the scene.
     Add,
-    /// Add a product by its key, in the state or with the control rule that it is first shown with.
+    /// Add the product with this key as a candidate, in its representative state or with the control rule that it
+    /// defines.
     AddProduct(String),
-    /// Add what is shown, with the current sky and sun fixed.
+    /// Add the current product as a candidate with the current sky and sun fixed.
     AddMoment,
-    /// Add what is shown with everything: room, apertures, sensor points, place, sky.
+    /// Add the whole current scene as a candidate: product, room, apertures, sensor points, location, sky.
     AddScene,
-    /// Make a candidate the scene, with everything that the candidate fixes.
+    /// Use a candidate as the scene, with everything that the candidate fixes.
     Take(usize),
     /// Remove a candidate.
     Remove(usize),
-    /// Move a candidate by this number of places.
+    /// Move a candidate in the list by this number of positions.
     Move(usize, isize),
-    /// Edit the name of a candidate; `None`: leave it unchanged.
+    /// Set the text in the name field of a candidate; `None`: end editing without a change.
     EditName(Option<(usize, String)>),
     /// Rename a candidate.
     Rename(usize, String),
     /// Remove all candidates.
     Clear,
-    /// Show the comparison in place of the tile area, or return to the tiles.
+    /// Show the comparison instead of the tile area, or return to the tiles.
     Show,
-    /// Set how the candidates are compared.
+    /// Set the display of the comparison.
     Look(Look),
-    /// Set the compared tile, by its title.
+    /// Set the tile that is compared, by its key.
     Tile(&'static str),
-    /// Set logarithmic or linear scales in all tiles.
+    /// Set logarithmic (`true`) or linear scales in the tiles of all candidates.
     Log(bool),
-    /// Set the reference candidate that differences are taken from.
+    /// Set the reference candidate, from which differences are taken.
     Base(usize),
-    /// Show the other candidate in the tiles, or return to the scene.
+    /// Show the candidate that was chosen to swap with in the tiles, or return to the scene.
     Swap,
-    /// Show this candidate in the tiles.
+    /// Show this candidate in the tiles instead of the scene.
     SwapWith(usize),
     /// Copy the table of figures to the clipboard.
     Copy,
-    /// Continue computing after a stop.
+    /// Continue the computation of the candidates after a stop.
     Resume,
 }
 
-/// Form of the comparison.
+/// Display of the comparison: tiles side by side, differences, curves or figures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Look {
-    /// One tile per candidate, all on one scale.
+    /// One tile per candidate, all on one colour scale.
     #[default]
     Beside,
     /// Difference of each candidate minus the reference, with sign.
@@ -61,10 +62,10 @@ pub enum Look {
 }
 
 impl Look {
-    /// All forms, in the order of the bar.
+    /// All displays of the comparison, in the order of the toolbar.
     pub const ALL: [Self; 4] = [Self::Beside, Self::Difference, Self::Curves, Self::Figures];
 
-    /// Returns the label.
+    /// Returns the label of the display.
     pub fn words(self) -> &'static str {
         match self {
             Self::Beside => texts::BESIDE,
@@ -75,7 +76,7 @@ impl Look {
         .get()
     }
 
-    /// Returns the tooltip, one sentence.
+    /// Returns the tooltip of the display, one sentence.
     pub fn tip(self) -> &'static str {
         match self {
             Self::Beside => texts::BESIDE_TIP,
@@ -90,25 +91,25 @@ impl Look {
 /// Display settings of the comparison.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct View {
-    /// Whether the comparison is shown in place of the tile area.
+    /// Whether the comparison is shown instead of the tile area.
     pub open: bool,
-    /// Form of the comparison.
+    /// Display of the comparison that is selected.
     pub look: Look,
-    /// Title of the compared tile; empty: that of the room.
+    /// Key of the tile that is compared; empty: that of the room.
     pub tile: &'static str,
     /// Whether all tiles side by side have logarithmic scales; `None`: each tile's default.
     pub log: Option<bool>,
-    /// Place of the reference candidate of differences.
+    /// Position in the list of the reference candidate, from which differences are taken.
     pub base: usize,
-    /// Candidate that is shown in the tiles instead of the scene.
+    /// Position in the list of the candidate that the tiles show instead of the scene, if any.
     pub swapped: Option<usize>,
-    /// Candidate that was chosen to swap with.
+    /// Position in the list of the candidate that was chosen to swap with, if any.
     pub other: Option<usize>,
-    /// Candidate whose name is being typed, and the text.
+    /// Position in the list of the candidate whose name is being typed, and the text.
     pub naming: Option<(usize, String)>,
 }
 
-/// Part of the results of a candidate.
+/// Kind of results of a candidate, computed separately.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Part {
     /// Product, state, dataset, sky and sun.
@@ -119,10 +120,10 @@ pub enum Part {
     Peaks,
     /// Illuminances in the room.
     Room,
-    /// Year of shading control.
+    /// States that shading control chooses over the year.
     Year,
     /// Illuminances of the room's surfaces, if the perspective shows them.
     Surfaces,
-    /// Figures of the dataset.
+    /// Optical figures of the dataset.
     Data,
 }

@@ -1,5 +1,6 @@
-//! Results of the candidates. Each candidate is a small window with its own state and results, so that every tile can
-//! draw it. Results are kept while the candidate's scene stays; only what is shown is computed.
+//! Candidates of the comparison with their results. Each candidate has a window state and results like a window, so
+//! that every tile can draw it. Results are stored while the candidate's scene is unchanged; only visible ones are
+//! computed.
 
 use super::compare::Part;
 use super::control::YearKey;
@@ -21,34 +22,34 @@ use crate::study::scene_file::{CompareKeys, SceneFile};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Candidate with its results.
+/// Candidate of the comparison with its results.
 pub struct Column {
-    /// Identity of the candidate, independent of its place.
+    /// Identity of the candidate, independent of its position in the list.
     pub id: u64,
-    /// Entry of the comparison in the scene.
+    /// Entry of the candidate in the scene's list of candidates.
     pub keys: CompareKeys,
     /// Name of the candidate.
     pub name: String,
-    /// State, as a window of the candidate would have it.
+    /// State of a window that shows the candidate.
     pub state: State,
-    /// Results of the candidate.
+    /// Results computed for the candidate.
     pub results: Results,
-    /// Tiles of the candidate.
+    /// Tiles that draw the candidate.
     pub bench: Bench,
-    /// Picture of the difference from the reference.
+    /// State of the view that draws the difference from the reference.
     pub difference: difference::State,
-    /// Figures of the dataset; the flag says that they were asked for.
+    /// Whether the figures of the dataset were requested, and the figures if they are known.
     data: (bool, Option<DataFacts>),
 }
 
-/// Copies a result that is up to date over an outdated one.
+/// Replaces an outdated result by an up-to-date one of another state.
 fn adopt<T>(own: &mut Shown<T>, from: &Shown<T>) {
     if own.stale && !from.stale {
         *own = Shown { value: from.value.clone(), stale: false, error: None, revision: from.revision };
     }
 }
 
-/// Whether a result is to be computed. A failed one is not, until something changes.
+/// Whether a result is to be computed: it is missing or outdated, and its computation has not failed.
 fn due<T>(shown: &Shown<T>) -> bool {
     shown.stale && shown.error.is_none()
 }
@@ -80,7 +81,7 @@ impl Column {
         &self.state.document.scene
     }
 
-    /// Whether a document shows the candidate.
+    /// Whether a document (scene and selection) shows the same as the candidate.
     pub fn shows(&self, document: &Document) -> bool {
         same_question(self.scene(), &document.scene) && self.state.document.selection == document.selection
     }
@@ -97,13 +98,14 @@ impl Column {
         self.data.0 = false;
     }
 
-    /// Returns the key that the control year of the candidate's product depends on.
+    /// Returns the key of all input of the annual shading control of the candidate's product; `None` without location
+    /// and date.
     pub fn year_key(&self) -> Option<YearKey> {
         let product = self.state.product.as_ref().filter(|product| product.states.len() > 1)?;
         YearKey::new(self.scene(), &product.key, self.state.control_keys(), 0, self.state.base())
     }
 
-    /// Whether a part is to be computed.
+    /// Whether results of this kind are to be computed for the candidate.
     pub fn lacks(&self, part: Part) -> bool {
         match part {
             Part::Shelf => due(&self.state.dataset) || due(&self.state.daylight),
@@ -116,24 +118,24 @@ impl Column {
         }
     }
 
-    /// Returns the revisions of dataset, daylight, LID and room; they change with the results.
+    /// Returns the revision numbers of dataset, daylight, LID and room, which change with these results.
     pub fn revisions(&self) -> [u64; 4] {
         let (state, results) = (&self.state, &self.results);
         [state.dataset.revision, state.daylight.revision, results.lid.revision, results.room.revision]
     }
 
-    /// Returns the incident direction that the candidate's tiles draw for.
+    /// Returns the incident direction for which the candidate's tiles show the light distribution.
     pub fn incident(&self) -> Incident {
         Incidence::shown(self.state.incident, self.scene(), &self.state.base()).direction
     }
 
-    /// Returns the reason why a result is missing.
+    /// Returns the reason why a result of the candidate is missing, if one is.
     pub fn error(&self) -> Option<&str> {
         let errors = [&self.state.dataset.error, &self.results.lid.error, &self.results.room.error];
         errors.into_iter().flatten().next().map(String::as_str)
     }
 
-    /// Returns the values that the figures are computed from, as far as they are known and not outdated.
+    /// Returns the results from which the candidate's figures are computed, those that are known and up to date.
     pub fn facts(&self) -> Facts {
         let lid = self.results.lid.value.as_ref().filter(|_| !self.results.lid.stale);
         let room = self.results.room.value.as_ref().filter(|_| !self.results.room.stale);
@@ -171,7 +173,7 @@ impl Column {
         self.state.daylight.take(daylight);
     }
 
-    /// Stores the result of a job.
+    /// Stores the result of a job for the candidate.
     pub fn take(&mut self, what: Compared) {
         match what {
             Compared::Shelf(loaded, daylight) => self.take_shelf(loaded, daylight.map_err(|error| error.to_string())),
@@ -201,9 +203,9 @@ impl Column {
     }
 }
 
-/// Key of a common scale: the tile, the revisions of the results, and the incident directions.
+/// Key of a common colour scale: the tile, the revisions of the candidates' results, and their incident directions.
 pub type ScaleKey = (&'static str, Vec<[u64; 4]>, Vec<Option<[u64; 3]>>);
-/// Key of a picture of all candidates: the key of the scale, the reference, and the names.
+/// Key of a picture of all candidates: the key of the colour scale, the position of the reference, and the names.
 pub type PictureKey = (ScaleKey, usize, Vec<String>);
 
 /// All candidates of the comparison.
@@ -211,22 +213,22 @@ pub type PictureKey = (ScaleKey, usize, Vec<String>);
 pub struct Columns {
     /// Candidates in the order of the comparison.
     pub list: Vec<Column>,
-    /// Candidate and part that are being computed.
+    /// Candidate (by its identity) and kind of results that are being computed.
     pub running: Option<(u64, Part)>,
-    /// Whether computing was stopped by the user, until something changes.
+    /// Whether the user has stopped the computation, until something changes.
     pub stopped: bool,
-    /// Common scale, with the key that it was found for.
+    /// Cache of the common colour scale, its lowest and highest value.
     pub scale: Cache<ScaleKey, Option<[f64; 2]>>,
-    /// Differences from the reference, with the key that they were computed for.
+    /// Cache of the differences of all candidates from the reference.
     pub differences: Cache<PictureKey, Vec<Option<Picture>>>,
-    /// Plots, with the key that they were made for.
+    /// Cache of the plots of all candidates.
     pub plots: Cache<PictureKey, Vec<Plot>>,
     next: u64,
     seen: Option<(SceneFile, PathBuf)>,
 }
 
 impl Columns {
-    /// Updates the candidates from the scene; returns whether what is being computed is no longer wanted.
+    /// Updates the candidates from the scene's list; returns whether the running computation is no longer needed.
     pub fn follow(&mut self, state: &State, results: &Results) -> bool {
         let scene = &state.document.scene;
         let path = state.scene_path.clone().unwrap_or_default();
@@ -289,24 +291,24 @@ impl Columns {
         (tile, self.list.iter().map(Column::revisions).collect(), self.list.iter().map(bits).collect())
     }
 
-    /// Returns the first missing part of the visible candidates, candidate by candidate.
+    /// Returns the first candidate of `columns` that lacks results of one of the kinds `parts`, and that kind.
     pub fn next(&self, columns: impl Iterator<Item = usize>, parts: &[Part]) -> Option<(&Column, Part)> {
         let columns: Vec<&Column> = columns.filter_map(|place| self.list.get(place)).collect();
         // Part by part: all have their first picture before one has its last figure.
         parts.iter().find_map(|part| columns.iter().find(|column| column.lacks(*part)).map(|column| (*column, *part)))
     }
 
-    /// Returns the names, each with its place so that no two are equal.
+    /// Returns the names of the candidates, each with its position so that no two are equal.
     pub fn names(&self) -> Vec<String> {
         self.list.iter().enumerate().map(|(at, column)| format!("{} {}", at + 1, column.name)).collect()
     }
 
-    /// Returns the scale of the tiles side by side, as drawn last.
+    /// Returns lowest and highest value of the common colour scale of the tiles side by side, as drawn last.
     pub fn common_scale(&self) -> Option<[f64; 2]> {
         self.scale.last().copied().flatten()
     }
 
-    /// Stores the result of a job for a candidate.
+    /// Stores the result of a job for the candidate with this identity.
     pub fn take(&mut self, id: u64, what: Compared) {
         self.running = None;
         if let Some(column) = self.list.iter_mut().find(|column| column.id == id) {
@@ -314,19 +316,19 @@ impl Columns {
         }
     }
 
-    /// Records that the running job ended in an internal error.
+    /// Records that the running job of the comparison ended with an internal error.
     pub fn fail(&mut self, error: String) {
         if let Some((id, part)) = self.running.take() {
             self.take(id, Compared::Failed(part, error));
         }
     }
 
-    /// Stops computing until something changes.
+    /// Stops the computation of candidates until something changes.
     pub fn stop(&mut self) {
         (self.stopped, self.running) = (true, None);
     }
 
-    /// Returns what the tiles show: the candidate in the scene's place, or the scene itself.
+    /// Returns the state and results that the tiles show: those of the swapped-in candidate, or those of the scene.
     pub fn shown<'a>(&'a self, state: &'a State, results: &'a Results) -> (&'a State, &'a Results) {
         let swapped = state.compare.swapped.and_then(|place| self.list.get(place));
         swapped.map_or((state, results), |column| (&column.state, &column.results))
@@ -334,7 +336,7 @@ impl Columns {
 }
 
 impl Column {
-    /// Copies results that the window itself has computed for the same scene.
+    /// Copies results that the window has already computed for the same scene.
     fn adopt(&mut self, state: &State, results: &Results) {
         if self.state.dataset.stale && !state.dataset.stale {
             self.state.product.clone_from(&state.product);

@@ -1,4 +1,5 @@
-//! Acting on the comparison: its list, the computation of candidates, and what the tiles of a candidate may change.
+//! Execution of commands about the comparison: its list, the computation of candidates, and commands from the tiles of
+//! a candidate.
 
 use super::command::Command;
 use super::compare::{Act, Look, Part};
@@ -26,7 +27,7 @@ use crate::study::{Library, Scene, SystemLibrary as _};
 use crate::texts::{Language, compare as texts, language};
 use std::sync::Arc;
 
-/// Returns the candidate that a document shows, with a name.
+/// Returns the entry of a candidate that shows the same as a document, with the given name.
 fn keys_of(document: &Document, name: String) -> CompareKeys {
     let selection = &document.selection;
     let controlled = selection.state == CONTROLLED;
@@ -48,7 +49,8 @@ fn rule_words(mode: ControlMode) -> String {
     if language() == Language::English { short.to_lowercase() } else { short.to_owned() }
 }
 
-/// Returns the name of what is shown, with the control rule instead of the state that it currently picks.
+/// Returns the name of the current product and state, with the control rule instead of the state that it currently
+/// chooses.
 fn shown_words(state: &State) -> String {
     if state.document.selection.state == CONTROLLED && own_system(&state.document.scene).is_none() {
         return format!("{}, {}", title::product(state), rule_words(state.control_mode()));
@@ -56,7 +58,7 @@ fn shown_words(state: &State) -> String {
     title::in_room(state)
 }
 
-/// Returns the parts that a tile draws.
+/// Returns the kinds of results that a tile needs in the given display of the comparison.
 pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
     use TileKind::{Btdf, Choose, Control, Lid, Room, Sky, Transmittance, Year};
     match (look, tile) {
@@ -73,11 +75,11 @@ pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
     }
 }
 
-/// All parts that tiles draw.
+/// All kinds of results that tiles draw.
 const ALL: &[Part] = &[Part::Shelf, Part::Room, Part::Surfaces, Part::Lid, Part::Peaks, Part::Year];
 
 impl App {
-    /// Acts on a command about the comparison.
+    /// Executes a command about the comparison.
     pub(super) fn act(&mut self, act: Act) {
         self.compare.stopped = false;
         let count = self.state.document.scene.compare.len();
@@ -142,7 +144,7 @@ impl App {
         }
     }
 
-    /// Makes a candidate the scene, as one undo step.
+    /// Replaces the scene by a candidate, given by its position, as one undo step.
     fn take_candidate(&mut self, place: usize) {
         end_step(&mut self.undoer, &self.state.document);
         let document = &mut self.state.document;
@@ -226,7 +228,7 @@ impl App {
         }
     }
 
-    /// Starts the computation of the next missing part of the candidates that are shown.
+    /// Starts the computation of the next missing results of the visible candidates.
     pub(super) fn ask_compared(&mut self) {
         // The list may have changed by undo, or by a scene that was opened.
         let count = self.state.document.scene.compare.len();
@@ -283,8 +285,8 @@ impl App {
         compare(FIGURES, &facts.iter().collect::<Vec<_>>())
     }
 
-    /// Applies commands from the tiles of a candidate to the scene, as far as the candidate shares what they change;
-    /// `from`: the index of the first of these commands in the list.
+    /// Redirects commands from the tiles of a candidate to the scene, if they change something that the candidate takes
+    /// from the scene. `place`: position of the candidate; `from`: index of the first of these commands in the list.
     pub(super) fn retarget(&self, place: usize, from: usize, commands: &mut Vec<Command>) {
         let Some(column) = self.compare.list.get(place) else { return };
         let document = &self.state.document;
@@ -304,7 +306,7 @@ impl App {
         }));
     }
 
-    /// Lists products that are similar to another one.
+    /// Lists products that are optically similar to another one.
     pub(super) fn find_like(&mut self, key: Option<String>) {
         let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
         let Some(key) = key else {
@@ -318,7 +320,7 @@ impl App {
 }
 
 impl super::compare::View {
-    /// Returns the title of the compared tile.
+    /// Returns the key of the compared tile.
     pub fn tile(&self) -> &'static str {
         let known = tiles::compared().map(|tile| tile.title);
         known.clone().find(|title| *title == self.tile).unwrap_or(TileKind::Room.title())
@@ -343,7 +345,7 @@ fn shared(scene: &SceneFile, keys: &CompareKeys, changed: SceneFile) -> SceneFil
     scene
 }
 
-/// Returns state and dataset of a scene whose first aperture is filled by a file or a closed form, not by a product.
+/// Returns state and dataset of a scene whose first aperture contains a dataset file or an ideal system, not a product.
 fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Result<(String, Arc<Dataset>), AppError> {
     let Question { scene, base, shelf } = question;
     let library = WindowLibrary { files, shelf: &**shelf, progress };
@@ -359,7 +361,8 @@ fn own_part(question: &Question, files: &Library, progress: &dyn Progress) -> Re
     Ok((state, library.load(&keys, base, Need::Everything)?.dataset.clone()))
 }
 
-/// Computes product, state and dataset of a candidate, if the catalogue does not hold them yet, with sky and sun.
+/// Reads product, state and dataset of a candidate (computed, if the catalogue does not contain it yet), and computes
+/// its sky and sun.
 fn shelf_part(question: &Question, files: &Library, progress: &dyn Progress) -> Compared {
     let Question { scene, base, shelf } = question;
     let daylight = daylight(scene, base, progress);

@@ -1,3 +1,3 @@
-//! Shading control of a product with several states: the study's module, as the window uses it.
+//! Shading control of a product with several states: re-export of the study's module.
 
 pub use crate::study::product_control::*;

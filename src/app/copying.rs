@@ -1,4 +1,4 @@
-//! Copies tiles to the clipboard: as pictures, and the value under the pointer. Their numbers are copied by
+//! Copying to the clipboard: tiles as pictures, and the value under the pointer. The numbers of tiles are copied by
 //! [`super::export`].
 
 use super::error::AppError;
@@ -17,7 +17,7 @@ use crate::texts::tiles as say;
 const MAX_EXCERPT: usize = 80;
 
 impl App {
-    /// Draws a tile as it is exported, for the clipboard.
+    /// Draws a tile as an exported picture, for the clipboard.
     pub(super) fn copy_picture(&mut self, tile: Tile) {
         let Some(kind) = TileKind::titled(tile.title) else { return };
         let Some(order) = self.order() else { return self.report_error(&AppError::NoProduct) };
@@ -43,7 +43,7 @@ impl App {
         }
     }
 
-    /// Copies the line under the tile that the pointer was on last.
+    /// Copies the value line under the tile that was last under the pointer to the clipboard.
     pub(super) fn copy_value(&mut self) {
         let Some(text) = pointed_foot(&self.ctx).filter(|text| !text.is_empty()) else {
             return self.toasts.info(say::NO_VALUE);

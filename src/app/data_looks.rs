@@ -1,5 +1,5 @@
-//! Views of the BTDF tile on the data: their form, and the map of interpolation schemes between their directions.
-//! Computed in jobs, only while visible.
+//! Data that the BTDF tile shows: original, filtered or compressed data, and the map of interpolation schemes between
+//! their incident directions. Computed in jobs, only while visible.
 
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::Incident;
@@ -8,30 +8,31 @@ use crate::compute::incidence::ways::Triangle;
 use crate::study::data_form::{DataForm, Formed, NoForm, row_of};
 use crate::study::scene_file::Interpolation;
 
-/// View of the BTDF tile on the data.
+/// Choice of the data that the BTDF tile shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct DataLook {
-    /// Form of the emergent light.
+    /// Processing of the data on the emergent side: original, filtered for diffuse light, or compressed by wavelets.
     pub form: DataForm,
-    /// Whether the map of schemes over the incident side is shown.
+    /// Whether the map of interpolation schemes is shown on the incident side: the scheme that applies at each incident
+    /// direction.
     pub schemes: bool,
 }
 
-/// Key that a form of the data depends on: dataset, indicatrix, form, and filter.
+/// Key of all input of processed data (filtered or compressed): dataset, indicatrix, kind of processing, and filter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FormKey {
-    /// Revision of the dataset.
+    /// Revision number of the dataset.
     pub dataset: u64,
-    /// Index of the indicatrix.
+    /// Index in the dataset of the indicatrix; `None` if it has none for the incident direction.
     pub row: Option<usize>,
-    /// Form of the data.
+    /// Processing of the data: original, filtered or compressed.
     pub form: DataForm,
-    /// Scheme of diffuse light in the scene.
+    /// Scheme for diffuse light of the scene, which decides the filter.
     pub diffuse: DiffuseScheme,
 }
 
 impl FormKey {
-    /// Creates the key for the data of an incident direction.
+    /// Creates the key for the indicatrix of an incident direction; `dataset`: revision number of the dataset.
     pub fn of(btdf: &Btdf, dataset: u64, incident: Incident, (form, diffuse): (DataForm, DiffuseScheme)) -> Self {
         // Only the filter depends on the scene.
         let diffuse = if form == DataForm::Filtered { diffuse } else { DiffuseScheme::Auto };
@@ -39,37 +40,40 @@ impl FormKey {
     }
 }
 
-/// Data in a form, or the reason why there are none, with their key.
+/// Processed data (original, filtered or compressed) of one incident direction, or the reason why there are none, with
+/// their key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FormResult {
-    /// Key that the data were made for.
+    /// Key of the input from which the data were computed.
     pub key: FormKey,
-    /// Data in the form.
+    /// Processed data, or the reason why there are none.
     pub made: Result<Formed, NoForm>,
 }
 
-/// Key of a map of schemes: revision of the dataset, the scene's scheme for the sun, and its interpolation between
-/// directions.
+/// Key of a map of interpolation schemes: revision number of the dataset, the scene's scheme for direct sun, and its
+/// setting for the interpolation between incident directions.
 pub type SchemesKey = (u64, SunScheme, Interpolation);
 
-/// Reason why there is no map of schemes.
+/// Reason why there is no map of interpolation schemes over the incident directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoSchemes {
-    /// Patch-averaged data: nothing is interpolated.
+    /// Patch-averaged data, between which nothing is interpolated.
     NoDirections,
-    /// Nothing is scattered, or only by a closed form.
+    /// No scattered light, or scattered light that is given by a closed form.
     ClosedForm,
-    /// The scene uses the data as given.
+    /// Setting of the scene by which data are used as given, without interpolation.
     Patches,
-    /// Directions that have no triangles between them.
+    /// Incident directions of the data that form no triangles.
     NoTriangles,
 }
 
-/// Map of schemes, or the reason why there is none, with its key.
+/// Map that shows which interpolation scheme applies at each incident direction, or the reason why there is none, with
+/// its key.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SchemesResult {
-    /// Key that the map was made for.
+    /// Key of the input from which the map was computed.
     pub key: SchemesKey,
-    /// Triangles of the map.
+    /// Triangles between the incident directions of the data, each with its interpolation scheme, which form the map;
+    /// or the reason why there is no map.
     pub made: Result<Vec<Triangle>, NoSchemes>,
 }

@@ -1,4 +1,5 @@
-//! File dialogs behind a trait, so that tests can script them. They run in a job: some block until answered.
+//! File dialogs behind a trait, so that tests can replace them. They run in a job, since some block until the user
+//! answers.
 
 use super::error::AppError;
 use super::state::PathUse;
@@ -10,15 +11,16 @@ use std::path::{Path, PathBuf};
 pub trait FileDialogs: Send + Sync {
     /// Asks for files to open; returns an empty list if the user cancels, and an error if no dialog can be shown.
     fn open(&self) -> Result<Vec<PathBuf>, AppError>;
-    /// Asks for folders to open; returns an empty list if the user cancels. `title` says what they are for.
+    /// Asks for folders to open; returns an empty list if the user cancels. `title`: title of the dialog.
     fn open_folder(&self, _title: Text) -> Result<Vec<PathBuf>, AppError> {
         Err(AppError::NoDialog)
     }
-    /// Asks for a path to write to, starting from a folder and name. The dialog itself asks before a file is replaced.
+    /// Asks for a path to write to, with a proposed folder and name; returns `None` if the user cancels. The dialog
+    /// asks before a file is replaced.
     fn save(&self, what: PathUse, start: &Path) -> Result<Option<PathBuf>, AppError>;
 }
 
-/// Dialogs of the desktop.
+/// File dialogs of the desktop.
 pub struct NativeDialogs(());
 
 thread_local! {
@@ -26,8 +28,8 @@ thread_local! {
     static REFUSED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Receiver of the dialog library's log: only there the library reports that neither the desktop's portal nor zenity
-/// answers; its return value is then that of a dialog that was closed.
+/// Receiver of the dialog library's log messages: only there the library reports that no dialog could be shown; its
+/// return value is the same as for a dialog that the user closed.
 struct DialogLog;
 
 impl log::Log for DialogLog {
@@ -45,7 +47,7 @@ impl log::Log for DialogLog {
 }
 
 impl NativeDialogs {
-    /// Returns the dialogs, and starts to receive the log of their library.
+    /// Returns the dialogs of the desktop, and starts to receive the log of their library.
     pub fn listening() -> Self {
         // Where somebody else listens already, a dialog that cannot be shown looks closed.
         if log::set_logger(&DialogLog).is_ok() {
@@ -54,7 +56,7 @@ impl NativeDialogs {
         Self(())
     }
 
-    /// Shows a dialog and returns what was chosen, or an error if it could not be shown.
+    /// Shows a dialog and returns the user's choice (`None` if cancelled), or an error if it could not be shown.
     fn shown<T>(dialog: impl FnOnce() -> Option<T>) -> Result<Option<T>, AppError> {
         REFUSED.set(false);
         let chosen = dialog();

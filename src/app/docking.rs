@@ -1,4 +1,4 @@
-//! Arranging the tiles by menus, palette and keys.
+//! Arrangement of the tiles by menus, command palette and keys.
 
 use super::arrange::{Arrange, Way};
 use super::state::Tile;
@@ -7,7 +7,8 @@ use super::window::App;
 use crate::texts::tiles as say;
 use egui::{Pos2, Rect};
 
-/// Returns the tile nearest to another one on one side of it; the one across from its middle first.
+/// Returns the tile nearest to the tile `from` on the side `way`, preferably opposite its middle; `None` if there is
+/// none.
 fn beside(places: &[(Tile, Rect)], from: Tile, way: Way) -> Option<Tile> {
     let own = places.iter().find(|(tile, _)| *tile == from)?.1;
     let gap = |rect: &Rect| match way {
@@ -35,7 +36,7 @@ impl App {
         &self.bench.times
     }
 
-    /// Acts on a command about the arrangement of the tiles.
+    /// Executes a command about the arrangement of the tiles.
     pub(super) fn arrange(&mut self, what: Arrange) {
         let state = &mut self.state;
         if let Arrange::Preset(ready) = what {
@@ -107,7 +108,7 @@ impl App {
         self.state.settings.layout = Some(layout.text());
     }
 
-    /// Makes a tile visible: a hidden one is not drawn and so has no numbers.
+    /// Makes a tile visible, since a hidden tile is not drawn and has no numbers to export.
     pub(super) fn bring_up(&mut self, tile: Tile) {
         if self.state.maximised.is_some_and(|shown| shown != tile) {
             self.state.maximised = Some(tile);

@@ -1,4 +1,4 @@
-//! Computations that are due as soon as their results are visible.
+//! Record of the computations that have to start as soon as their results are visible.
 
 use super::jobs::Lane;
 use crate::study::scene_file::{BoxKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
@@ -14,7 +14,7 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Creates the geometry of a scene.
+    /// Creates the geometry part of a scene.
     pub fn of(scene: &SceneFile) -> Self {
         let openings = scene.aperture.iter().map(|one| (one.surface, one.origin, one.size)).collect();
         let outside = scene.outside.iter().map(|one| one.solid).collect();
@@ -22,16 +22,17 @@ impl Geometry {
     }
 }
 
-/// Computations that are due.
+/// Record of the computations that are due, i.e. still to be started.
 #[derive(Debug, Default)]
 pub struct Due {
-    /// Lanes that are due.
+    /// Lanes whose computation is due.
     pub lanes: BTreeSet<Lane>,
-    /// Geometry for which all sensor points were last computed.
+    /// Geometry of the scene for which all sensor points were last computed.
     pub geometry: Option<Geometry>,
-    /// Whether the result that is shown or being computed has fewer sensor points; all of them follow.
+    /// Whether the illuminances that are shown or being computed are for fewer sensor points, a preliminary result.
     pub coarse: bool,
-    /// Whether a preview of the room has been shown. Behind obstructions a preview comes first.
+    /// Whether a preview of the illuminances has been shown, which precedes the accurate result if there are
+    /// obstructions.
     pub previewed: bool,
 }
 

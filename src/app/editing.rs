@@ -1,5 +1,5 @@
-//! Editing stored products state by state: names and angles, replaced data, the same files read again. Undo covers all
-//! of it.
+//! Editing of the states of stored products: names and angles, replacement of data, reading the files again. Undo
+//! covers all of it.
 
 use super::changes::{Change, Editing, Looked, Reread};
 use super::disk::read_bytes;
@@ -17,7 +17,7 @@ use crate::texts::{catalogue as text, fixed};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Reads the contents of the sheet of a product.
+/// Reads the data of a product for its sheet from the catalogue.
 pub(super) fn look(shelf: &dyn Shelf, key: &str) -> Result<Looked, AppError> {
     let product = shelf.product(key)?;
     let found = shelf.subscribed_folder(key)?;
@@ -30,7 +30,7 @@ fn read(read: ReadDataset, path: &Path) -> Result<SourceFile, AppError> {
     read(&name, &bytes).map_err(|error| AppError::from(error).about(path.display()))
 }
 
-/// Returns the data of a file for a state, with the repairs of its product applied.
+/// Returns the replacement of a state's data by those of a file, with the repairs of the product applied.
 fn replacement(product: &Snapshot, state: &str, file: &SourceFile, dataset: &Dataset) -> Result<Replacement, AppError> {
     let (_, repairs) = recorded(&product.product().provenance.method);
     Ok(Replacement {
@@ -52,7 +52,7 @@ fn from_file(shelf: &dyn Shelf, key: &str, state: &str, path: &Path, reader: Rea
     Ok(Change::Replaced { key: key.to_owned(), before: Arc::new(before), list: Arc::new(list) })
 }
 
-/// Reads the files of a product again and returns the differences.
+/// Reads the files of a product again and returns the differences from the stored product.
 fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, AppError> {
     let before = shelf.snapshot(key)?;
     let paths = shelf.source_paths(key)?;
@@ -85,7 +85,7 @@ fn reread(shelf: &dyn Shelf, key: &str, reader: ReadDataset) -> Result<Reread, A
 }
 
 impl App {
-    /// Sets name and angle of a state of the sheet's product, as typed.
+    /// Sets the typed name and angle of a state (by its index) of the edited product.
     pub(super) fn edit_state(&mut self, place: usize, words: StateWords) {
         if let Some(state) = self.state.editing.as_mut().and_then(|editing| editing.states.get_mut(place)) {
             *state = words;
@@ -122,7 +122,7 @@ impl App {
         }
     }
 
-    /// Reads the files of the sheet's product again; changes are shown, and applied on request.
+    /// Starts reading the files of the edited product again; the sheet then shows the differences.
     pub(super) fn reread(&mut self) {
         let Some(editing) = &self.state.editing else { return };
         let (key, reader) = (editing.key.clone(), self.services.read);
@@ -137,7 +137,7 @@ impl App {
         }
     }
 
-    /// Applies the changes found by reading the files again.
+    /// Applies the differences found by reading the files again to the catalogue.
     pub(super) fn take_changes(&mut self) {
         let editing: Option<&mut Editing> = self.state.editing.as_mut();
         if let Some(change) = editing.and_then(|editing| editing.reread.take()).and_then(|reread| reread.change) {

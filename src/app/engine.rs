@@ -1,4 +1,5 @@
-//! Interface from the window to the study. A trait, so that tests can use a slow or failing implementation.
+//! Interface of the window to the computations of the study. A trait, so that tests can use a slow or failing
+//! implementation.
 
 use super::error::AppError;
 use super::shelf::Shelf;
@@ -18,90 +19,93 @@ use crate::study::{Library, OutsideSeen, Session, SurfaceLight};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Illuminances in the room.
+/// Result of a room computation: illuminances at the sensor points with their components.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RoomFigures {
-    /// Positions of the sensor points. \[m\]
+    /// Positions of the sensor points, in the room's axes. \[m\]
     pub positions: Vec<[f64; 3]>,
-    /// Direct component from the apertures. \[lx\]
+    /// Direct component of the illuminance at each sensor point, from the apertures. \[lx\]
     pub direct: Vec<Estimate>,
-    /// Interreflected component. \[lx\]
+    /// Interreflected component of the illuminance at each sensor point. \[lx\]
     pub interreflected: Vec<Estimate>,
     /// Part of `direct` that is due to beams of direct sun, one value per sensor point; empty if there is none. \[lx\]
     pub beam: Vec<f64>,
-    /// Uncertainty due to the data, beside the numerical one; one value per sensor point, or empty. \[lx\]
+    /// Uncertainty of the illuminance due to the optical data, beside the numerical one; one value per sensor point, or
+    /// empty. \[lx\]
     pub data_error: Vec<f64>,
     /// Obstructions as seen by the apertures; empty if there are none.
     pub outside: Vec<OutsideSeen>,
-    /// Columns and rows, if the sensor points form a grid.
+    /// Numbers of columns and rows, if the sensor points form a grid.
     pub grid: Option<[usize; 2]>,
-    /// Whether there are fewer sensor points than in the scene, for a fast first result; all of them follow.
+    /// Whether the result has fewer sensor points than the scene: a fast, preliminary result, followed by one with all
+    /// of them.
     pub coarse: bool,
     /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
-/// Illuminances of the room's surfaces.
+/// Result of a room computation for its surfaces: illuminances by patch.
 #[derive(Debug, Clone)]
 pub struct SurfaceFigures {
-    /// Illuminances by patch.
+    /// Illuminances of the room's surfaces by patch, with direct sunbeams separately.
     pub light: SurfaceLight,
     /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
 impl RoomFigures {
-    /// Returns the illuminance at a sensor point, with its uncertainty. \[lx\]
+    /// Returns the total illuminance (direct and interreflected) at a sensor point, with its uncertainty. \[lx\]
     pub fn total(&self, sensor: usize) -> Estimate {
         self.direct[sensor] + self.interreflected[sensor] + Estimate::new(0.0, part(&self.data_error, sensor))
     }
 
-    /// Returns the illuminances at all sensor points. \[lx\]
+    /// Returns the total illuminances at all sensor points, with their uncertainties. \[lx\]
     pub fn totals(&self) -> impl Iterator<Item = Estimate> + Clone + '_ {
         (0..self.positions.len()).map(|sensor| self.total(sensor))
     }
 }
 
-/// Returns the value of a sensor point from a list that may be empty, else 0.
+/// Returns the value of a sensor point from a list with one value per point; 0 if the list is empty.
 pub fn part(list: &[f64], sensor: usize) -> f64 {
     list.get(sensor).copied().unwrap_or(0.0)
 }
 
-/// Luminous intensity distribution of the first aperture.
+/// Result for the first aperture as a luminaire: luminous intensity distribution and flux.
 #[derive(Debug, Clone)]
 pub struct LidFigures {
-    /// Luminous intensity distribution.
+    /// Luminous intensity distribution of the aperture.
     pub lid: Lid,
-    /// Luminous flux. \[lm\]
+    /// Luminous flux of the aperture into the room. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the aperture's outside, including direct sun. \[lx\]
+    /// Illuminance on the outside of the aperture, including direct sun; `None` if it is not known. \[lx\]
     pub incident: Option<f64>,
-    /// Header of a luminaire file.
+    /// Texts for the header of a luminaire file.
     pub description: Description,
     /// Wall-clock time of the computation. \[s\]
     pub seconds: f64,
 }
 
-/// Input of a job: a scene and its catalogue.
+/// Input of a computation: a scene, its folder and the catalogue.
 #[derive(Clone)]
 pub struct Question {
-    /// Scene as typed.
+    /// Scene as in its file or as edited in the window.
     pub scene: SceneFile,
-    /// Folder that relative paths start from.
+    /// Folder to which the paths in the scene are relative.
     pub base: PathBuf,
-    /// Source of the products.
+    /// Catalogue from which the scene's products are read.
     pub shelf: Arc<dyn Shelf>,
 }
 
-/// Computations of the study.
+/// Computations of the study that the window uses.
 pub trait Engine: Send + Sync {
-    /// Computes the illuminances in the room.
+    /// Computes the illuminances at the sensor points of the room.
     fn room(&self, question: &Question, progress: &dyn Progress) -> Result<RoomFigures, AppError>;
     /// Computes the illuminances of the room's surfaces.
     fn surfaces(&self, question: &Question, progress: &dyn Progress) -> Result<SurfaceFigures, AppError>;
     /// Computes the LID of the first aperture.
     fn lid(&self, question: &Question, progress: &dyn Progress) -> Result<LidFigures, AppError>;
-    /// Computes everything that pictures and reports show; an implementation without caches computes it from scratch.
+    /// Computes all results that pictures and reports show, those that `wanted` selects; without cached results, unless
+    /// an implementation has some.
     fn subject(
         &self,
         question: &Question,
@@ -111,16 +115,17 @@ pub trait Engine: Send + Sync {
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&Session::new(), &Library::default()), progress)
     }
-    /// Returns the interpolator between the directions of the data.
+    /// Returns the interpolator between the incident directions of the data.
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         Arc::new(Interpolator::new(Arc::clone(data)))
     }
-    /// Computes the year of a scene that has one. Engines that compute no light return an error.
+    /// Computes the annual simulation of a scene with a `[year]` section. Engines without light computations return an
+    /// error.
     fn year(&self, _: &Question, _: &dyn Progress) -> Result<Annual, AppError> {
         Err(AppError::NoNumbers)
     }
-    /// Computes years of the products of lists, preliminary ones first; the callback gets every result as soon as it is
-    /// available, from any thread. Engines that compute no light return an error.
+    /// Computes annual simulations of the products to rank, preliminary ones first; `_report` is called with every
+    /// result as soon as it is available, from any thread. Engines without light computations return an error.
     fn rank(
         &self,
         _groups: &[Group],
@@ -131,12 +136,12 @@ pub trait Engine: Send + Sync {
     ) -> Result<(), AppError> {
         Err(AppError::NoNumbers)
     }
-    /// Computes error against run time of every method.
+    /// Computes error against computing time for every method, by runs with rising effort.
     fn accuracy(&self, question: &Question, progress: &dyn Progress) -> Result<Accuracy, AppError>;
-    /// Returns the bytes of a luminaire file; the path's extension gives its format.
+    /// Returns the bytes of a luminaire file in the format that the extension of `path` states.
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError>;
-    /// Computes the requested luminaire files of the first aperture; `path`: that of the single file, from which the
-    /// files of a grid get their names. Engines that compute no light return an error.
+    /// Computes the requested luminaire files of the first aperture; a `Path` is that of the single file, from which
+    /// the names of the files of a grid are derived. Engines without light computations return an error.
     fn luminaires(
         &self,
         _: &Question,
@@ -148,7 +153,7 @@ pub trait Engine: Send + Sync {
     }
 }
 
-/// Computes everything that pictures and reports show of a scene.
+/// Computes all results of a scene that pictures and reports show, those that `wanted` selects.
 ///
 /// # Errors
 /// Returns an error if the scene or one of its systems is incomplete.

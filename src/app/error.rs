@@ -1,4 +1,4 @@
-//! Errors of the window. An error becomes a sentence only where it is shown.
+//! Errors of the window. They are converted to sentences, in the user's language, only where they are shown.
 
 use crate::catalogue::CatalogueError;
 use crate::compute::doctor::RepairError;
@@ -16,15 +16,15 @@ use std::fmt::Display;
 /// Reason why a job ended without a result.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JobError {
-    /// Panic of the job, with its details.
+    /// Panic in the job, with its details.
     #[error("{}", shell::panicked(.0))]
     Panic(Box<Fault>),
-    /// Thread that could not be started, with the message of the system.
+    /// Thread for the job that could not be started: message of the operating system.
     #[error("{}", shell::no_thread(.0))]
     NoThread(String),
 }
 
-/// Returns the message why bytes are not the text of `what`.
+/// Returns the message that a file is not text; `what`: the expected kind of file.
 fn not_text(error: &NotText, what: &str) -> String {
     match error.encoding {
         Encoding::WebPage => shell::web_page(what),
@@ -32,7 +32,7 @@ fn not_text(error: &NotText, what: &str) -> String {
     }
 }
 
-/// Error of an action of the window.
+/// Error of an action in the window.
 #[derive(Debug, thiserror::Error)]
 pub enum AppError {
     /// Error of the study.
@@ -68,57 +68,57 @@ pub enum AppError {
     /// Error in making a report.
     #[error(transparent)]
     Report(#[from] ReportError),
-    /// Tile that has not been drawn since its numbers were requested.
+    /// Numbers requested of a tile that has not been drawn since.
     #[error("{}", shell::NO_NUMBERS)]
     NoNumbers,
-    /// Missing product.
+    /// Action that needs a product, but none is selected.
     #[error("{}", shell::PRODUCT_NOT_THERE)]
     NoProduct,
-    /// Series without moments.
+    /// Series of luminaire files without any date and time with the sun above the horizon.
     #[error("{}", shell::NO_MOMENTS)]
     NoMoments,
     /// Series of too many files: their number, and the maximum.
     #[error("{}", shell::many_files(.0, .1))]
     ManyFiles(usize, usize),
-    /// File name with a wrong extension, and the right one.
+    /// File name for an export with a wrong extension: the right one.
     #[error("{}", shell::wrong_ending(.0))]
     ExportEnding(&'static str),
     /// Picture of a tile that cannot be encoded.
     #[error("{}", shell::no_picture(.0))]
     Picture(#[from] png::EncodingError),
-    /// Error about the file with this name or path.
+    /// Error with the name or path of the file that it concerns.
     #[error("{0}: {1}")]
     About(String, Box<Self>),
-    /// Bytes where text is expected: their encoding, and what is expected, e.g. `a scene`.
+    /// File that is not text: the actual encoding, and the expected kind of file, e.g. `a scene`.
     #[error("{}", not_text(.0, .1))]
     NotText(NotText, &'static str),
-    /// Wrong extension for a tile's numbers.
+    /// File name for a tile's numbers with a wrong extension: that extension.
     #[error("{}", shell::tile_ending(.0))]
     TileEnding(String),
-    /// Path for computed data whose extension names no format.
+    /// File name for computed data whose extension is not that of a known format.
     #[error("{}", shell::MEASURED_ENDING)]
     MeasuredEnding,
-    /// Missing file dialog of the desktop.
+    /// File dialog of the desktop that could not be shown.
     #[error("{}", shell::NO_DIALOG)]
     NoDialog,
-    /// Product without states.
+    /// Product without states: its name.
     #[error("{}", shell::no_state(.0))]
     NoState(String),
     /// Described system without states.
     #[error("{}", shell::NO_STATES)]
     NoStates,
-    /// File for one state that holds this number of states instead.
+    /// File that should contain one state but contains this number of states.
     #[error("{}", shell::not_one_state(.0))]
     NotOneState(usize),
-    /// Product whose files cannot be read again one per state.
+    /// Product that does not have one file per state, so that its files cannot be read again.
     #[error("{}", shell::not_a_file_each(files, states))]
     NotAFileEach {
-        /// Number of files.
+        /// Number of the product's files.
         files: usize,
-        /// Number of states.
+        /// Number of the product's states.
         states: usize,
     },
-    /// Missing sky and sun for shading control.
+    /// Shading control without sky and sun, on which it depends.
     #[error("{}", shell::NO_DAYLIGHT)]
     NoDaylight,
     /// Scene without an aperture.

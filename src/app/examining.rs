@@ -1,4 +1,4 @@
-//! Findings of the data check, cached by content.
+//! Cache of the data check's findings, by the content of the datasets.
 
 use crate::catalogue::content_of;
 use crate::compute::btdf::Dataset;
@@ -9,15 +9,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Maximum number of datasets whose findings are cached.
 const MOST: usize = 64;
 
-/// Findings by content of the data.
+/// Pairs of a dataset's content hash and its findings, newest at the end.
 type Kept = VecDeque<(String, Arc<Vec<Diagnosis>>)>;
 
-/// Cache of the latest findings by content, newest at the end; clones share it.
+/// Cache of the findings of the latest checked datasets, by content hash; clones share it.
 #[derive(Debug, Clone, Default)]
 pub struct Examined(Arc<Mutex<Kept>>);
 
 impl Examined {
-    /// Returns the findings about a dataset, checked once per content. Slow the first time.
+    /// Returns the findings of the data check about a dataset; the check runs once per content and is slow.
     pub fn of(&self, dataset: &Dataset) -> Arc<Vec<Diagnosis>> {
         // What readers found counts too.
         let key = format!("{}{:?}", content_of(dataset), dataset.findings);

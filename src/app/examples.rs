@@ -1,16 +1,16 @@
-//! Example system files.
+//! Example system files for the sheet of the virtual goniophotometer.
 
 use crate::texts::{Text, goniophotometer as texts};
 
-/// Named example.
+/// Example of a system file with its label.
 pub struct Example {
-    /// Label of its button.
+    /// Label of the example's button.
     pub name: Text,
     /// Text of the system file.
     pub text: &'static str,
 }
 
-/// Examples, one of every kind of system that the goniophotometer supports.
+/// Examples: at least one of every kind of system that the virtual goniophotometer supports.
 pub const EXAMPLES: [Example; 12] = [
     Example {
         name: texts::VENETIAN,

@@ -1,10 +1,10 @@
-//! Export of tiles as numbers (.csv). The tile has to be drawn again, because only its drawing knows its numbers.
+//! Export of tiles as numbers (.csv). The tile is drawn again for it, because only its drawing supplies the numbers.
 
 use super::error::AppError;
 use super::state::Tile;
 use std::path::PathBuf;
 
-/// Destination of a tile's numbers.
+/// Destination of a tile's numbers: clipboard, export dialog or file.
 enum Target {
     Clipboard,
     ExportDialog,
@@ -45,7 +45,7 @@ impl Exports {
         self.numbers.as_ref().is_some_and(|(wanted, _)| *wanted == tile)
     }
 
-    /// Drops the request: the tile has no numbers.
+    /// Drops the request for a tile that has no numbers.
     pub fn refuse(&mut self) {
         self.numbers = None;
     }

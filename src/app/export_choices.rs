@@ -1,4 +1,5 @@
-//! Choices of the export dialog: content, form and name. They are kept from one start to the next.
+//! Choices of the export dialog: content, format, options and name. They are stored from one start of the program to
+//! the next.
 
 use super::moment;
 use super::safe_name::safe;
@@ -14,7 +15,7 @@ use crate::texts::{Language, Text, export as texts};
 use jiff::civil::{Date, DateTime};
 use std::path::Path;
 
-/// Content of an export.
+/// Kind of content of an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum What {
     /// Picture of a tile.
@@ -22,22 +23,22 @@ pub enum What {
     Picture,
     /// Report as PDF.
     Report,
-    /// Luminaire file of the aperture at the scene's moment.
+    /// Luminaire file of the aperture at the scene's date and time.
     Luminaire,
-    /// Luminaire files for many moments and states.
+    /// Luminaire files for several dates, times and states.
     Series,
     /// Numbers of a tile.
     Table,
-    /// Data of the state that is shown.
+    /// Dataset of the current state.
     Dataset,
     /// Product with all its states.
     Package,
-    /// Scene with everything that the study needs, as text.
+    /// Scene file (TOML).
     Scene,
 }
 
 impl What {
-    /// All contents, in the order in which they are offered.
+    /// All kinds of content, in the order of the dialog.
     pub const ALL: [Self; 8] = [
         Self::Picture,
         Self::Report,
@@ -49,7 +50,7 @@ impl What {
         Self::Scene,
     ];
 
-    /// Returns the label and the tooltip.
+    /// Returns label and tooltip of the kind of content.
     pub const fn words(self) -> [Text; 2] {
         match self {
             Self::Picture => [texts::PICTURE, texts::PICTURE_TIP],
@@ -64,7 +65,7 @@ impl What {
     }
 }
 
-/// Kind of report.
+/// Kind of report in an export.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum ReportKind {
     /// Report on the scene.
@@ -74,17 +75,17 @@ pub enum ReportKind {
     Sheet,
 }
 
-/// Months, hours and states of a series.
+/// Months, hours and states of a series of luminaire files.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Series {
-    /// Months that are included, each on its 21st.
+    /// Months that are included, January first, each with its 21st day.
     pub months: [bool; 12],
     /// First and last hour of the day. \[h\]
     pub hours: [u8; 2],
-    /// Hours between moments, at least 1.
+    /// Step between the hours, at least 1. \[h\]
     pub step: u8,
-    /// Whether all states of the product are included; otherwise the one that is shown.
+    /// Whether all states of the product are included; otherwise only the current one.
     pub all_states: bool,
 }
 
@@ -100,19 +101,19 @@ impl Default for Series {
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Choices {
-    /// Content of the export.
+    /// Kind of content of the export.
     pub what: What,
-    /// Tile of pictures and tables.
+    /// Tile that is exported as a picture or as numbers.
     pub tile: TileKind,
-    /// Size of pictures.
+    /// Size of exported pictures.
     pub size: Size,
     /// Whether pictures are written as vectors (.svg) instead of pixels (.png).
     pub vector: bool,
-    /// Whether pictures have the colours for print.
+    /// Whether pictures have colours and lines for black-and-white print.
     pub print: bool,
-    /// Whether a picture has a caption.
+    /// Whether a picture has header and footer with product, location, time, uncertainty and origin.
     pub caption: bool,
-    /// Kind of report.
+    /// Kind of the exported report.
     pub report: ReportKind,
     /// Title of a study report; empty: the product's name.
     pub title: String,
@@ -120,19 +121,21 @@ pub struct Choices {
     pub question: String,
     /// Whether a study report includes the candidates of the comparison.
     pub comparison: bool,
-    /// Template of a product sheet's tender text.
+    /// Template of the tender text of a product sheet.
     pub tender: String,
-    /// Whether luminaires are written as LM-63 (.ies) instead of EULUMDAT (.ldt).
+    /// Whether luminaire files are written as IES LM-63 (.ies) instead of EULUMDAT (.ldt).
     pub ies: bool,
-    /// Whether the aperture is split into as many luminaires as light a room within 1 %, with an index.
+    /// Whether the aperture is split into a grid of luminaires that light a room within 1 %, with an index of the
+    /// files.
     pub tiles: bool,
-    /// Whether unscattered direct sun is left to the other program.
+    /// Whether undeviated direct sun is left out of the luminaire files, because the reading program computes it
+    /// itself.
     pub without_beam: bool,
-    /// Moments and states of a series.
+    /// Dates, times and states of a series of luminaire files.
     pub series: Series,
-    /// Whether datasets are written as text (.btdf.txt) instead of BSDF XML.
+    /// Whether datasets are written as `.btdf.txt` instead of BSDF XML.
     pub text: bool,
-    /// Whether tables have decimal commas and semicolons.
+    /// Whether CSV tables have decimal commas, and semicolons between columns.
     pub decimal_comma: bool,
 }
 
@@ -160,11 +163,11 @@ impl Default for Choices {
     }
 }
 
-/// Maximum number of files of a series; a larger number is taken as a mistake.
+/// Maximum number of files of a series; a larger number is refused as a probable mistake.
 pub const MOST_FILES: usize = 600;
 
 impl Choices {
-    /// Returns the extension of the file, with its point.
+    /// Returns the extension of the exported file, with its dot.
     pub const fn ending(&self) -> &'static str {
         match self.what {
             What::Picture if self.vector => ".svg",
@@ -180,19 +183,19 @@ impl Choices {
         }
     }
 
-    /// Returns the format of a dataset.
+    /// Returns the format in which a dataset is exported.
     pub const fn format(&self) -> Format {
         if self.text { Format::BtdfText } else { Format::BsdfXml }
     }
 }
 
-/// Preview of an export.
+/// Preview of an export in the dialog.
 pub enum Preview {
-    /// Picture: width and height \[px\], pixels row by row, and a note.
+    /// Picture: width and height \[px\], pixel colours (RGBA) row by row, and a note.
     Picture([usize; 2], Vec<u8>, String),
-    /// First lines of a text, and its length in bytes.
+    /// First lines of a text file, and its length. \[bytes\]
     Text(String, usize),
-    /// Files that will be written, each with a description.
+    /// Names of the files that will be written, each with a description.
     Files(Vec<(String, String)>),
 }
 
@@ -203,15 +206,15 @@ pub struct ExportState {
     pub asked: Option<Key>,
     /// Last preview, or the reason why there is none.
     pub shown: Option<Result<Preview, String>>,
-    /// Number of previews so far, for the texture.
+    /// Number of previews so far, by which the picture's texture is updated.
     pub revision: u64,
-    /// Numbers of a tile, with the key that they belong to.
+    /// Numbers of a tile as CSV, with the key of the preview that they belong to.
     pub numbers: Option<(Key, String)>,
-    /// Name that was proposed; another name in the field is the user's own.
+    /// File name that the program proposed; any other name in the field was typed by the user.
     pub offered: String,
 }
 
-/// Everything that a preview depends on.
+/// Key of a preview: everything that it depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Key {
     /// Choices of the dialog.
@@ -220,9 +223,9 @@ pub struct Key {
     pub scene: SceneFile,
     /// Selected product and state.
     pub selection: Selection,
-    /// Incident direction, as bits of its vector.
+    /// Incident direction that the user chose, as the bits of its vector.
     pub incident: Option<[u64; 3]>,
-    /// Tile of the comparison, and place of its reference.
+    /// Tile of the comparison, and position of the reference candidate.
     pub compared: (TileKind, usize),
     /// Revision of the annual simulation, and its display settings.
     pub year: (u64, Look),
@@ -232,21 +235,21 @@ pub struct Key {
     pub language: Language,
 }
 
-/// Moment of a series, one file each.
+/// Member of a series: one luminaire file for a date, time and state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
     /// Name of the file.
     pub name: String,
     /// Scene of the file.
     pub scene: SceneFile,
-    /// Date and time.
+    /// Date and time of the member, in the scene's local time.
     pub time: DateTime,
     /// Key of the state; empty: as in the scene.
     pub state: String,
 }
 
-/// Returns the moments of a series, with files beside an index at `path`. Moments with the sun below the horizon are
-/// left out.
+/// Returns the members of a series, with their file names beside an index at `path`. Times with the sun below the
+/// horizon are left out.
 pub fn moments(
     choices: &Choices,
     scene: &SceneFile,
@@ -288,7 +291,7 @@ pub fn moments(
     list
 }
 
-/// Sets the state of every aperture that is filled from the catalogue.
+/// Sets the state of every aperture of a scene that contains a product of the catalogue.
 fn in_state(scene: &mut SceneFile, key: &str) {
     scene.control = None;
     for aperture in &mut scene.aperture {

@@ -1,4 +1,4 @@
-//! Bytes of exported files, and their previews. Runs in jobs.
+//! Creation of exported files and of their previews, in jobs.
 
 use super::disk::{create_folder, write_several};
 use super::engine::{Engine, Question};
@@ -31,19 +31,19 @@ use crate::texts::export as texts;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Input of an export job.
+/// Input of an export job: choices, scene, and results that exist already.
 pub struct Order {
-    /// Choices of the dialog.
+    /// Choices of the export dialog.
     pub choices: Choices,
-    /// Scene and catalogue.
+    /// Scene, its folder and the catalogue.
     pub question: Question,
-    /// Incident direction that was chosen.
+    /// Incident direction that the user chose; `None`: that of the sun.
     pub incident: Option<Incident>,
-    /// Product that is shown.
+    /// Selected product, if there is one.
     pub product: Option<Arc<Product>>,
-    /// Dataset of the state that is shown.
+    /// Dataset of the current state, if there is one.
     pub dataset: Option<Arc<Dataset>>,
-    /// Tile of the comparison in a study report, and place of its reference.
+    /// Tile of the comparison in a study report, and position of the reference candidate.
     pub compared: (TileKind, usize),
     /// Path of the scene's file, if it has one.
     pub scene_path: Option<PathBuf>,
@@ -51,18 +51,18 @@ pub struct Order {
     pub year: Option<(Arc<Annual>, Look)>,
     /// Ranking of the scene, if there is one, with its display settings.
     pub ranking: Option<(Arc<Shortlist>, Choosing)>,
-    /// Numbers of the tile.
+    /// Numbers of the exported tile as CSV, if they are requested.
     pub numbers: Option<String>,
     /// Engine for the computations.
     pub engine: Arc<dyn Engine>,
 }
 
-/// Paths with the bytes that are written there.
+/// Paths of files with their bytes.
 type Files = Vec<(PathBuf, Vec<u8>)>;
 
 /// Maximum width and height of a preview's picture. \[px\]
 const PREVIEW: f64 = 900.0;
-/// Number of lines of a text that are shown.
+/// Number of lines of a text file that a preview shows.
 const LINES: usize = 40;
 
 fn check(progress: &dyn Progress) -> Result<(), AppError> {
@@ -74,7 +74,7 @@ impl Order {
         if self.choices.print { &Inks::PRINT } else { &Inks::LIGHT }
     }
 
-    /// Draws the chosen tile.
+    /// Draws the chosen tile as an exported picture.
     pub(super) fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
         let choices = &self.choices;
         // Before anything is computed: settings of another day may hold any number.
@@ -118,7 +118,8 @@ impl Order {
         Ok((subject.name, pages))
     }
 
-    /// Returns the bytes of an export that is a single file. `warning`: what the file does not show as it is.
+    /// Returns the bytes of an export that is a single file. `warning` is set if the file cannot show something
+    /// unchanged, e.g. characters.
     fn bytes(&self, path: &Path, warning: &mut Option<String>, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
         let choices = &self.choices;
         Ok(match choices.what {
@@ -159,7 +160,7 @@ impl Order {
         })
     }
 
-    /// Returns the package of the product with all its states; missing states are computed.
+    /// Returns the package of the product with all its states as bytes; the data of missing states are computed first.
     fn package(&self, progress: &dyn Progress) -> Result<Vec<u8>, AppError> {
         let product = self.product.as_deref().ok_or(AppError::NoProduct)?;
         let count = product.states.len();
@@ -199,8 +200,8 @@ impl Order {
         }
     }
 
-    /// Computes the luminaire files of the scene's aperture; `path`: that of the single file, from which the files of a
-    /// grid get their names.
+    /// Computes the luminaire files of the scene's aperture; `path`: that of the single file, from which the names of
+    /// the files of a grid are derived.
     fn luminaires(&self, scene: &SceneFile, path: &Path, progress: &dyn Progress) -> Result<LuminaireSet, AppError> {
         let Choices { tiles, without_beam, .. } = self.choices;
         let format =
@@ -211,7 +212,7 @@ impl Order {
         self.engine.luminaires(&question, &options, path, progress)
     }
 
-    /// Returns the files of a grid of luminaires in a folder of its own, with the index last, so that it never names a
+    /// Returns the files of a grid of luminaires, in a separate folder, with the index last, so that it never names a
     /// missing file.
     fn tiles(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
         let path = in_own_folder(path);
@@ -222,7 +223,8 @@ impl Order {
         Ok(files)
     }
 
-    /// Returns the luminaire files of each moment, with the index last, so that it never names a missing file.
+    /// Returns the luminaire files of all members of a series, with the index last, so that it never names a missing
+    /// file.
     fn series(&self, path: &Path, progress: &dyn Progress) -> Result<Files, AppError> {
         let moments = self.moments(path)?;
         let (mut rows, mut files) = (Vec::new(), Vec::with_capacity(moments.len() + 1));
@@ -240,10 +242,11 @@ impl Order {
         Ok(files)
     }
 
-    /// Computes all files, then writes them, all or none. Returns the path, and what the file does not show as it is.
+    /// Computes all files, then writes them: all, or none after an error. Returns the path, and a warning if a file
+    /// cannot show something unchanged.
     ///
     /// # Errors
-    /// Returns an error if a file cannot be made or written; then no new file is left.
+    /// Returns an error if a file cannot be computed or written; then no new file remains.
     pub fn write(&self, path: &Path, progress: &dyn Progress) -> Result<(PathBuf, Option<String>), AppError> {
         if !path.to_string_lossy().to_lowercase().ends_with(self.choices.ending()) {
             return Err(AppError::ExportEnding(self.choices.ending()).about(path.display()));
@@ -274,10 +277,10 @@ impl Order {
         Ok((index, warning))
     }
 
-    /// Returns a preview of what would be written at a path.
+    /// Returns a preview of the files that an export to `path` would write.
     ///
     /// # Errors
-    /// Returns an error if the content cannot be made.
+    /// Returns an error if the content cannot be computed.
     pub fn preview(&self, path: &Path, progress: &dyn Progress) -> Result<Preview, AppError> {
         let name = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
         Ok(match self.choices.what {
@@ -337,7 +340,7 @@ impl Order {
     }
 }
 
-/// Returns the path of a file in a folder that has its name.
+/// Returns the path of a file inside a folder of the same name.
 pub(super) fn in_own_folder(path: &Path) -> PathBuf {
     path.with_extension("").join(path.file_name().unwrap_or_default())
 }

@@ -1,4 +1,4 @@
-//! Acting on the export dialog: its name, its preview, its job.
+//! Execution of commands about the export dialog: proposed name, preview, export job.
 
 use super::engine::Question;
 use super::error::AppError;
@@ -16,7 +16,7 @@ use crate::study::luminaire_set::tile_name;
 use crate::texts::{choose, language, year as say};
 use std::path::{Path, PathBuf};
 
-/// Returns the key of the preview for the window as it is.
+/// Returns the key of the preview for the current state of the window.
 fn key_of(state: &State, results: &Results) -> Key {
     let document = &state.document;
     let bits = |incident: crate::compute::direction::Incident| incident.0.vector().to_array().map(f64::to_bits);
@@ -32,12 +32,12 @@ fn key_of(state: &State, results: &Results) -> Key {
     }
 }
 
-/// Returns the compared tile and the place of the reference.
+/// Returns the compared tile and the position of the reference candidate.
 fn compared(state: &State) -> (TileKind, usize) {
     (TileKind::titled(state.compare.tile()).unwrap_or(TileKind::Room), state.compare.base)
 }
 
-/// Returns the files that are written for a path.
+/// Returns the paths of all files that an export to `path` writes.
 pub fn targets(state: &State, path: &Path) -> Vec<PathBuf> {
     let choices = &state.settings.export;
     let mut list = vec![path.to_owned()];
@@ -58,7 +58,7 @@ fn tile_of(kind: TileKind) -> Option<Tile> {
 }
 
 impl App {
-    /// Opens the dialog with this content.
+    /// Opens the export dialog with this kind of content and this tile.
     pub(super) fn open_export(&mut self, what: What, tile: Option<Tile>) {
         let choices = &mut self.state.settings.export;
         choices.what = what;
@@ -69,7 +69,7 @@ impl App {
         self.propose_export_path();
     }
 
-    /// Proposes folder and name.
+    /// Proposes folder and name of the exported file.
     pub(super) fn propose_export_path(&mut self) {
         let start = start_path(&self.state, PathUse::Export);
         self.state.path = start.display().to_string();
@@ -77,7 +77,8 @@ impl App {
         self.state.replace = None;
     }
 
-    /// Sets other choices. The proposed name follows them; of a name that the user typed only the extension does.
+    /// Sets new choices of the export dialog, and updates the proposed name; of a name that the user has typed only the
+    /// extension is changed.
     pub(super) fn set_export_choices(&mut self, choices: Choices) {
         let before = self.state.settings.export.ending();
         self.state.settings.export = choices;
@@ -91,8 +92,8 @@ impl App {
         }
     }
 
-    /// Proposes the name for what the window shows now, unless the user has typed one; returns whether the field holds
-    /// the proposed name.
+    /// Proposes the file name for the current state of the window, unless the user has typed one; returns whether the
+    /// field contains the proposed name.
     fn follow_name(&mut self) -> bool {
         let next = file_name(&self.state, PathUse::Export);
         let path = PathBuf::from(&self.state.path);
@@ -111,7 +112,7 @@ impl App {
         self.start(Lane::Export, move |_| Outcome::Target(PathUse::Export, dialogs.save(PathUse::Export, &start)));
     }
 
-    /// Returns the input of an export job; `None` before the catalogue is open and the product is read.
+    /// Returns the input of an export job; `None` until the catalogue is open and the product has been read.
     pub(super) fn order(&self) -> Option<Order> {
         let state = &self.state;
         let selected = &state.document.selection.product;
@@ -148,7 +149,7 @@ impl App {
         }
     }
 
-    /// Updates the preview while the dialog is open and nothing is being dragged or computed.
+    /// Starts a new preview if the dialog is open, its input has changed, and nothing is being dragged or computed.
     pub(super) fn ask_preview(&mut self) {
         if self.state.sheet != Some(Sheet::Export) {
             if self.state.export.asked.take().is_some() {
@@ -193,7 +194,7 @@ impl App {
         self.start(Lane::Preview, move |progress| Outcome::Preview(order.preview(&path, progress)));
     }
 
-    /// Stores the numbers that a tile gave for the dialog.
+    /// Stores the numbers that a tile has supplied for the export dialog.
     pub(super) fn take_numbers(&mut self) {
         if let Some(text) = self.export.take_dialog_numbers() {
             self.state.export.numbers = Some((key_of(&self.state, &self.results), text));

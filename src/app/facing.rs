@@ -1,3 +1,3 @@
-//! Directions relative to the scene's façade or roof: the study's module, as the window uses it.
+//! Directions relative to the scene's façade or roof: re-export of the study's module.
 
 pub use crate::study::facing::*;

@@ -1,7 +1,7 @@
 //! Internal errors in the window: the open session is saved first, then a report is written, then the error is shown.
 //!
-//! A fault in a job costs its result. A fault on the window's own thread ends the program: what was kept at the end of
-//! the frame before is on disk by then, and the next start says where the report is.
+//! After an internal error in a job only its result is missing. One on the window's thread ends the program: the
+//! session of the previous frame is on disk by then, and the next start shows a message with the path of the report.
 
 use super::autosave::Autosave;
 use super::error::{AppError, JobError};
@@ -12,17 +12,18 @@ use crate::texts::shell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
-/// Titles of sections in a fault report; they are not translated.
+/// Titles of sections in the report on an internal error, not translated.
 const SCENE: &str = "scene";
 const SYSTEM: &str = "system";
 
 impl App {
-    /// Sets the folder that reports on faults are written to.
+    /// Sets the folder to which reports on internal errors are written.
     pub fn report_faults(&mut self, folder: Option<&Path>) {
         self.faults.folder = folder.map(Path::to_path_buf);
     }
 
-    /// Shows why a job ended without a result. `stage`: the job's stage at its end.
+    /// Shows a message about a job that ended without a result because of an internal error, and writes a report.
+    /// `stage`: stage of the job at its end.
     pub(super) fn take_failure(&mut self, lane: Lane, stage: &'static str, error: JobError) {
         let text = format!("{}: {error}", lane.word());
         match &error {
@@ -74,7 +75,7 @@ impl App {
         }
     }
 
-    /// Saves the session; returns when it is on disk or cannot be written.
+    /// Saves the session at once; returns when it is on disk or cannot be written.
     fn save_now(&mut self) {
         self.keep_session();
         if let Some(keeper) = &self.autosave {
@@ -82,8 +83,8 @@ impl App {
         }
     }
 
-    /// Writes the report on a fault, or finds an earlier report on the same one; `None` if there is no folder for
-    /// reports.
+    /// Writes the report on an internal error, or finds an earlier report on the same one, and returns its path; `None`
+    /// if there is no folder for reports. `doing`: action of the window at that time.
     fn report(&mut self, fault: &Fault, doing: &str) -> Option<Result<PathBuf, AppError>> {
         let folder = self.faults.folder.clone()?;
         if let Some((_, path)) = self.faults.reported.iter().find(|(other, path)| other.is_same(fault) && path.exists())
@@ -105,7 +106,8 @@ impl App {
         Some(written.map_err(AppError::Study))
     }
 
-    /// Handles a fault on the window's own thread, as the program is about to end.
+    /// Handles an internal error on the window's thread, before the program ends: saves the session and writes the
+    /// report.
     fn end_at_fault(&mut self) {
         let keeper = self.autosave.take();
         // What is open was kept when the last frame ended; what this one has made of it is not to be trusted.

@@ -7,7 +7,7 @@ use super::work::Outcome;
 use std::sync::Arc;
 
 impl App {
-    /// Starts the data check of the dataset that is shown.
+    /// Starts the data check of the dataset of the current state, if the sheet of findings is open.
     pub(super) fn ask_findings(&mut self) {
         let Some(dataset) = self.state.dataset.value.clone().filter(|_| self.state.sheet == Some(Sheet::Findings))
         else {

@@ -1,4 +1,4 @@
-//! First display of a product.
+//! Initial state or control rule of a newly selected product.
 
 use super::control;
 use super::scene::{Selection, fill, set_rule};
@@ -6,7 +6,7 @@ use super::state::Document;
 use crate::catalogue::FirstRule;
 use crate::study::control::year::CONTROLLED;
 
-/// Puts a product into a document as it is first shown: with its own control rule, else in the state that is given.
+/// Selects a product in a document with the control rule that the product defines, or else in the given state.
 pub(super) fn first_choice(document: &mut Document, product: String, rule: FirstRule, state: Option<&str>) {
     let keys = control::first_keys(rule);
     let state = if keys.is_some() { CONTROLLED } else { state.unwrap_or_default() };

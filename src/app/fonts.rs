@@ -1,5 +1,5 @@
-//! System fonts for characters that the built-in fonts lack: searched only when a text that is shown has such
-//! characters, and in a job, because listing the fonts of a system takes long.
+//! System fonts for characters that the built-in fonts lack. They are searched only when a visible text has such
+//! characters, in a job, because listing the fonts of a system takes long.
 
 use crate::texts::is_syllable;
 use egui::epaint::text::{FallbackRequest, FontInsert, FontProvider};
@@ -11,16 +11,16 @@ use std::sync::{LazyLock, Mutex, PoisonError};
 /// Function that searches fonts with the given characters; returns them by name, and the characters that no font has.
 pub type FindFonts = fn(&[char]) -> (Vec<(String, FontData)>, Vec<char>);
 
-/// Characters that were shown and that no installed font has.
+/// Record of characters in visible texts that no loaded font has.
 #[derive(Default)]
 pub struct MissingCharacters(Mutex<Characters>);
 
 #[derive(Default)]
 struct Characters {
-    /// Characters that fonts were searched for.
+    /// Characters for which fonts have been searched.
     known: BTreeSet<char>,
     new: Vec<char>,
-    /// Scripts that a notice was shown for.
+    /// Scripts for which a notice has been shown.
     noticed: BTreeSet<u32>,
 }
 
@@ -34,7 +34,7 @@ impl MissingCharacters {
         self.with(|characters| std::mem::take(&mut characters.new))
     }
 
-    /// Returns those characters whose script had no notice yet.
+    /// Returns those characters for whose script no notice has been shown yet.
     pub(super) fn to_notice(&self, characters: Vec<char>) -> Vec<char> {
         // One font serves all of Chinese, Japanese and Korean; other scripts have blocks of their own.
         let script = |c: char| if is_syllable(c) { 0 } else { u32::from(c) >> 8 };
@@ -47,7 +47,7 @@ impl MissingCharacters {
 }
 
 impl FontProvider for MissingCharacters {
-    /// Records the character and returns no font: the window would wait for the answer.
+    /// Records the character and returns no font, since the window would wait for the search.
     fn font_for(&self, request: &FallbackRequest<'_>) -> Option<FontInsert> {
         let character = request.cluster.chars().next()?;
         self.with(|characters| {
@@ -59,7 +59,8 @@ impl FontProvider for MissingCharacters {
     }
 }
 
-/// Searches the fonts of the system.
+/// Searches the fonts of the operating system for the given characters. Returns fonts by name, and the characters that
+/// none has.
 pub fn system_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>) {
     static SYSTEM: LazyLock<SystemFontProvider> = LazyLock::new(SystemFontProvider::new);
     let (mut fonts, mut missing) = (Vec::new(), Vec::new());
@@ -74,7 +75,7 @@ pub fn system_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>)
     (fonts, missing)
 }
 
-/// Returns no fonts: for tests, which show the same on every machine.
+/// Returns no fonts: replacement of [`system_fonts`] for tests, which must look the same on every machine.
 pub fn no_fonts(characters: &[char]) -> (Vec<(String, FontData)>, Vec<char>) {
     (Vec::new(), characters.to_vec())
 }

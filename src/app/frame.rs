@@ -1,4 +1,5 @@
-//! Work of a frame: takes results of jobs, handles keys and dropped files, draws, acts on commands. Never waits.
+//! Work of one frame of the window: stores results of jobs, handles keys and dropped files, draws, executes commands.
+//! It never waits.
 
 use super::backend::{StudyEngine, open_shelf};
 use super::command::Command;
@@ -15,7 +16,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 impl App {
-    /// Prepares a frame before drawing: results, keys, dropped files, requests. Never waits.
+    /// Prepares a frame before drawing: stores results of jobs, handles keys and dropped files, starts jobs. Never
+    /// waits.
     pub fn logic(&mut self, ctx: &egui::Context) {
         let _speaking = self.speak();
         if !self.installed {
@@ -63,7 +65,7 @@ impl App {
         }
     }
 
-    /// Draws one frame and acts on its commands.
+    /// Draws one frame and executes the commands that it returns.
     pub fn draw(&mut self, ui: &mut egui::Ui) {
         let _speaking = self.speak();
         if self.opened.take(&self.state, ui.ctx().cumulative_frame_nr()) {
@@ -161,8 +163,7 @@ pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
     .map_err(|error| anyhow::anyhow!(no_window(&error.to_string())))
 }
 
-/// Returns the message why no window can be opened, without the source location in a library, and what works without a
-/// window.
+/// Returns the message that no window can be opened, with the reason, and with what works without a window.
 fn no_window(error: &str) -> String {
     let placed = error.split_once("os error at ").and_then(|(_, rest)| rest.split_once(": "));
     let reason = placed.map_or(error, |(_, reason)| reason).trim_end_matches('.');

@@ -1,4 +1,4 @@
-//! Pictures of products for the gallery: made on a thread for the visible cards, cached by the content of the data.
+//! Pictures of products for the gallery: computed in a job for the visible cards, cached by the content of the data.
 
 use super::shelf::{Entry, Shelf};
 use crate::catalogue::TYPICAL_SUN;
@@ -9,12 +9,12 @@ use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// Maximum number of pictures made at a time, so that the first are visible before the last are begun.
+/// Maximum number of pictures computed in one job, so that the first are visible early.
 const AT_ONCE: usize = 12;
-/// Maximum number of pictures in the cache; when exceeded, pictures are made again as they become visible.
+/// Maximum number of pictures in the cache; dropped ones are computed again when they become visible.
 const MOST: usize = 1500;
 
-/// Finished picture by the hash of the data; `None` if the data cannot be drawn.
+/// Finished picture with the hash of its data; `None` if the data cannot be drawn.
 pub type Made = (Arc<str>, Option<Arc<ColorImage>>);
 
 /// Requested picture: keys of product and state, hash of the data.
@@ -25,16 +25,16 @@ pub(super) struct Wanted {
     pub(super) dataset: Arc<str>,
 }
 
-/// Cache of the pictures.
+/// Cache of the product pictures in the gallery.
 #[derive(Default)]
 pub struct Gallery {
     pictures: HashMap<Arc<str>, Option<TextureHandle>>,
     wanted: Vec<Wanted>,
-    /// Number of columns of cards, as drawn last.
+    /// Number of columns of cards in the gallery, as drawn last.
     pub columns: usize,
 }
 
-/// Draws the emergent light of a state of a product, for sunlight at the polar angle [`TYPICAL_SUN`].
+/// Draws the light distribution of a product's state for direct sun at the polar angle [`TYPICAL_SUN`].
 pub(super) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorImage>> {
     let dataset = shelf.load(&wanted.product, Some(&wanted.state)).ok()?;
     let btdf = dataset.transmission()?;

@@ -1,6 +1,6 @@
-//! Sheet of the virtual goniophotometer: the system file as typed, the setup, the finished states.
+//! Sheet of the virtual goniophotometer: text of the system file, settings, finished states.
 //!
-//! Every state is a job of its own, so that finished ones show at once and stay when the run is stopped.
+//! Every state is computed by a separate job, so that finished ones are shown at once and stay when the run is stopped.
 
 use super::disk::{ends_in, write_several, write_whole};
 use super::error::AppError;
@@ -20,25 +20,25 @@ use std::sync::Arc;
 
 /// Seed of random numbers.
 const SEED: u64 = 1;
-/// Number of emergent cells above which states are held in compact form: a family of states at 1° would fill the
-/// memory.
+/// Number of emergent cells above which computed states are compressed by wavelets, since many states at 1° would fill
+/// the memory.
 const MOST_WHOLE_CELLS: usize = 1000;
 
-/// Basis of the incident directions.
+/// Basis of the incident directions in a computation of the virtual goniophotometer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Incidence {
-    /// Klems full basis (LBNL).
+    /// Klems full basis (LBNL), 145 patches.
     Klems,
-    /// Tregenza patches, on the plane of the façade.
+    /// 145 Tregenza patches about the façade's normal.
     Tregenza,
 }
 
-/// Basis of the emergent directions.
+/// Basis of the emergent directions in a computation of the virtual goniophotometer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Emergence {
-    /// Klems full basis (LBNL).
+    /// Klems full basis (LBNL), 145 patches.
     Klems,
-    /// Even division into cells of this width. \[°\]
+    /// Division into cells of uniform width. \[°\]
     Even(u8),
 }
 
@@ -46,7 +46,7 @@ impl Incidence {
     /// All bases for the incident directions.
     pub const ALL: [Self; 2] = [Self::Klems, Self::Tregenza];
 
-    /// Returns the label.
+    /// Returns the label of the basis.
     pub const fn word(self) -> Text {
         match self {
             Self::Klems => texts::KLEMS,
@@ -56,10 +56,10 @@ impl Incidence {
 }
 
 impl Emergence {
-    /// Bases for the emergent directions, as listed.
+    /// Bases of the emergent directions that the sheet offers.
     pub const ALL: [Self; 4] = [Self::Klems, Self::Even(5), Self::Even(2), Self::Even(1)];
 
-    /// Returns the label.
+    /// Returns the label of the basis.
     pub fn word(self) -> String {
         match self {
             Self::Klems => texts::KLEMS.into(),
@@ -68,7 +68,7 @@ impl Emergence {
     }
 }
 
-/// Bases and accuracy of a computation.
+/// Settings of a computation by the virtual goniophotometer: bases and allowed error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setup {
     /// Basis of the incident directions.
@@ -86,7 +86,7 @@ impl Default for Setup {
 }
 
 impl Setup {
-    /// Returns the request to the study.
+    /// Returns the request to the study with these settings.
     pub fn request(&self) -> Request {
         let klems = || RingBasis::klems_full(AzimuthMap::KLEMS_FRONT);
         Request {
@@ -104,20 +104,20 @@ impl Setup {
     }
 }
 
-/// Finished state of a run.
+/// Computed state of a described system.
 #[derive(Debug, Clone)]
 pub struct Finished {
     /// Dataset with the four functions of the state.
     pub dataset: Arc<Dataset>,
-    /// Transmittance at normal incidence.
+    /// Direct-hemispherical visible transmittance at normal incidence.
     pub tau_normal: f64,
-    /// Energy balance, reciprocity and numerical error.
+    /// Energy balance, reciprocity and estimated error of the computed data.
     pub quality: Option<Quality>,
-    /// Computing time. \[s\]
+    /// Computing time of the state. \[s\]
     pub seconds: f64,
 }
 
-/// Run over all states of one system file.
+/// Run of the virtual goniophotometer over all states of a described system.
 #[derive(Debug, Clone)]
 pub struct Run {
     /// Described system that is computed.
@@ -126,7 +126,7 @@ pub struct Run {
     pub setup: Setup,
     /// Keys of the states; `None` until the first job has determined them.
     pub states: Option<Vec<String>>,
-    /// Finished states, in order.
+    /// Finished states, in the order of `states`.
     pub finished: Vec<Finished>,
 }
 
@@ -137,30 +137,29 @@ impl Run {
     }
 }
 
-/// State of the goniophotometer's sheet. Not covered by undo, because nothing of it is in the catalogue before it is
-/// added.
+/// State of the sheet of the virtual goniophotometer, not covered by undo.
 #[derive(Debug, Default)]
 pub struct Bench {
     /// Text of the system file, as typed.
     pub text: String,
-    /// Folder that relative names in the text start from.
+    /// Folder to which file names in the text are relative.
     pub base: PathBuf,
-    /// Text as read, or its error; `None` if the text is empty.
+    /// Described system that the text defines, or its error; `None` if the text is empty.
     pub described: Option<Result<Arc<Described>, AppError>>,
-    /// Number of changes of the text so far.
+    /// Number of changes of the text so far, by which drawings are updated.
     pub revision: u64,
-    /// Number of the state that is drawn.
+    /// Index of the state whose section is drawn.
     pub drawn: usize,
-    /// Bases and accuracy that are selected.
+    /// Selected settings: bases and allowed error.
     pub setup: Setup,
-    /// Last run, finished or not.
+    /// Last run, whether finished or not.
     pub run: Option<Run>,
-    /// Reason why the last run ended early.
+    /// Reason why the last run ended early, if it did.
     pub failure: Option<String>,
 }
 
 impl Bench {
-    /// Sets and reads a new text.
+    /// Sets a new text of the system file and reads it.
     pub fn set_text(&mut self, text: String) {
         self.revision += 1;
         self.described = (!text.trim().is_empty()).then(|| check(&text, self.base.clone()).map(Arc::new));
@@ -178,13 +177,13 @@ impl Bench {
         self.valid().map(|described| described.file.system.states()).unwrap_or_default()
     }
 
-    /// Whether a run belongs to the current text and setup.
+    /// Whether a run belongs to the current text and settings.
     pub fn is_current(&self, run: &Run) -> bool {
         run.setup == self.setup && self.valid().is_some_and(|described| *described == run.described)
     }
 }
 
-/// Reads a text and checks its geometry, whose errors show only when the system is built.
+/// Reads the text of a system file, and checks its geometry by creating an optical model.
 fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
     let described = Described::from_text(text, Base::Folder(base))?;
     let system = &described.file.system;
@@ -197,7 +196,7 @@ fn check(text: &str, base: PathBuf) -> Result<Described, AppError> {
     Ok(described)
 }
 
-/// Computes the next state after the finished ones.
+/// Computes the next state of a run after the finished ones. Returns the keys of all states, and the computed state.
 pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<String>, Finished), AppError> {
     let states = match &run.states {
         Some(states) => states.clone(),
@@ -214,7 +213,7 @@ pub fn next_state(run: &Run, library: &Library, job: &JobState) -> Result<(Vec<S
     Ok((states, finished))
 }
 
-/// Returns the product that is stored with the states.
+/// Returns the product with name, kind and provenance as which the states of a run are stored.
 pub fn product(run: &Run) -> NewProduct {
     // Names depend on the states alone, the description on what every state was computed from.
     let named = |finished: &Finished| Dataset {
@@ -233,7 +232,7 @@ fn package(run: &Run) -> Result<Vec<u8>, CatalogueError> {
     catalogue.export_package(&[imported.key])
 }
 
-/// Returns the files that [`export`] writes for a path.
+/// Returns the paths of the files that [`export`] writes.
 pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
     if ends_in(path, "cfsp") || run.finished.len() < 2 {
         return vec![path.to_owned()];
@@ -244,8 +243,8 @@ pub fn targets(run: &Run, path: &Path) -> Vec<PathBuf> {
     run.finished.iter().map(|one| of_state(&one.dataset.state)).collect()
 }
 
-/// Writes all states: one package (.cfsp), or one file per state (.xml, .btdf.txt), named by the states if there are
-/// several.
+/// Writes all states of a run: one package (.cfsp), or one file per state (.xml, .btdf.txt), with the state in its name
+/// if there are several. `made_from`: input files, which are never overwritten.
 pub fn export(run: &Run, path: &Path, made_from: &[PathBuf]) -> Result<PathBuf, AppError> {
     let about_path = |error: AppError| error.about(path.display());
     if ends_in(path, "cfsp") {

@@ -1,4 +1,5 @@
-//! Imported files that are not stored yet: proposed products with their states, and what was left out and why.
+//! Import: files that were read but are not stored yet, the products proposed from them, and files that were left out
+//! with the reasons.
 
 use super::shelf::Addition;
 use crate::catalogue::{Ambiguity, Grouping, Known, NewProduct, Provenance, SourceFile, StateName, key_of_angle};
@@ -9,7 +10,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Texts of a product, as typed.
+/// Descriptive texts of a product in the import sheet, as the user has typed them.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ImportFields {
@@ -19,7 +20,7 @@ pub struct ImportFields {
     pub manufacturer: String,
     /// Kind of system.
     pub kind: String,
-    /// Search terms, separated by commas.
+    /// Tags by which the product is found, separated by commas.
     pub tags: String,
     /// Person or body that measured or computed the data.
     pub author: String,
@@ -34,13 +35,13 @@ impl ImportFields {
     }
 }
 
-/// Name of a state, as typed.
+/// Name and angle of a state, as the user has typed them.
 #[derive(Debug, Clone, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct StateWords {
     /// Angle in degrees, as typed; may be empty.
     pub angle: String,
-    /// Name; may be empty where there is an angle or no other state.
+    /// Name of the state; may be empty if it has an angle, or if there is no other state.
     pub name: String,
 }
 
@@ -53,71 +54,71 @@ impl StateWords {
         }
     }
 
-    /// Returns the typed angle, with a comma or a point; `None` if it is not a valid angle. \[°\]
+    /// Returns the typed angle, which may have a decimal comma or point; `None` if it is not a valid angle. \[°\]
     pub fn number(&self) -> Option<f64> {
         let text = self.angle.trim().trim_end_matches('°').replace(',', ".").replace('−', "-");
         text.trim().parse().ok().filter(|angle: &f64| angle.is_finite() && angle.abs() <= 360.0)
     }
 
-    /// Returns the key of the state.
+    /// Returns the key of the state that results from angle and name.
     pub fn key(&self) -> String {
         self.number().map_or_else(|| self.name.trim().to_owned(), key_of_angle)
     }
 }
 
-/// Product proposed from files, before it is stored.
+/// Product that an import proposes from files, before it is stored in the catalogue.
 #[derive(Debug, Clone, Default)]
 pub struct Proposed {
     /// Identifiers of its files, in their order; see [`file_id`].
     pub files: Vec<String>,
-    /// Whether it comes from a package, whose states stay together.
+    /// Whether the product comes from a package, whose states are not regrouped.
     pub packed: bool,
-    /// Datasets, one per state, with the repairs made.
+    /// Datasets, one per state, with the repairs applied.
     pub datasets: Vec<Arc<Dataset>>,
-    /// Datasets as the files hold them, without repairs.
+    /// Datasets as read from the files, one per state, without repairs.
     pub originals: Vec<Arc<Dataset>>,
-    /// Content hashes of the original data, one per state, independent of names.
+    /// Content hashes of the original datasets, one per state, independent of names.
     pub contents: Vec<String>,
-    /// File of each state; empty if it was joined from several.
+    /// Name of the file of each state; empty if the state was joined from several files.
     pub sources: Vec<String>,
-    /// Files of each state, by their places in [`Proposed::files`].
+    /// Files of each state, by their indices in [`Proposed::files`].
     pub parts: Vec<Vec<usize>>,
-    /// Names of the states, as typed.
+    /// Names and angles of the states, as typed.
     pub states: Vec<StateWords>,
-    /// Hemispherical transmittance of each state, if there is one.
+    /// Hemispherical visible transmittance of each state; `None` without a transmission.
     pub taus: Vec<Option<f64>>,
     /// Findings of the data check, one list per state.
     pub diagnoses: Vec<Vec<Diagnosis>>,
-    /// Repairs made, in order; recorded when the product is stored.
+    /// Repairs that are applied to all states, in their order; recorded when the product is stored.
     pub repairs: Vec<Repair>,
-    /// Repairs that are being made instead of [`Proposed::repairs`].
+    /// Requested repairs that are being applied instead of [`Proposed::repairs`], if any.
     pub requested_repairs: Option<Vec<Repair>>,
-    /// Texts for the user to fill in.
+    /// Descriptive texts that the user can complete.
     pub fields: ImportFields,
     /// Other information from the files: provenance, description, control curve, key.
     pub file_info: NewProduct,
-    /// Ambiguity to be resolved before the product is stored.
+    /// Ambiguity about the product's files that the user has to resolve before the product is stored.
     pub ambiguity: Option<Ambiguity>,
-    /// File of this import that holds the same data.
+    /// Name of another file of this import with the same data, if there is one.
     pub same_as: Option<String>,
-    /// Products of the catalogue that hold all of its data.
+    /// Products of the catalogue that contain all data of this product already.
     pub known: Vec<Known>,
-    /// Whether it is stored even if its data are in the catalogue already.
+    /// Whether the product is stored even if its data are in the catalogue already.
     pub add_anyway: bool,
 }
 
 impl Proposed {
-    /// Whether it is to be stored: its data are not there already, or it is added anyway.
+    /// Whether the product is to be stored: its data are new, or it is added anyway.
     pub fn wanted(&self) -> bool {
         self.add_anyway || (self.known.is_empty() && self.same_as.is_none())
     }
 
-    /// Whether it has a name.
+    /// Whether the product has a name.
     pub fn named(&self) -> bool {
         !self.fields.name.trim().is_empty()
     }
 
-    /// Returns the reason why it cannot be stored as it is, as a sentence.
+    /// Returns the reason why the product cannot be stored yet, as a sentence; `None` if it can.
     pub fn problem(&self) -> Option<String> {
         if let Some(place) = (0..self.datasets.len()).find(|&place| !transmits(&self.datasets[place])) {
             let file = self.sources.get(place).map_or("", String::as_str);
@@ -142,12 +143,12 @@ impl Proposed {
         None
     }
 
-    /// Whether it is stored when the import is added.
+    /// Whether the product is stored when the import is added: it is to be stored, and nothing is missing.
     pub fn ready(&self) -> bool {
         self.wanted() && self.ambiguity.is_none() && self.requested_repairs.is_none() && self.problem().is_none()
     }
 
-    /// Returns the addition to the catalogue.
+    /// Returns the product and its datasets for storing in the catalogue.
     pub fn addition(&self) -> Addition {
         let mut order: Vec<usize> = (0..self.datasets.len()).collect();
         if !self.packed && self.states.iter().all(|words| words.number().is_some()) {
@@ -190,7 +191,7 @@ impl Proposed {
 }
 
 impl Proposed {
-    /// Returns the paths of the files of the states, in this order of the states.
+    /// Returns the paths of the files of the states, for the given order of the states.
     fn paths(&self, order: &[usize]) -> Vec<String> {
         let parts = order.iter().flat_map(|&place| self.parts.get(place).into_iter().flatten());
         parts.filter_map(|&part| self.files.get(part).cloned()).collect()
@@ -202,23 +203,23 @@ fn transmits(dataset: &Dataset) -> bool {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref()).is_some()
 }
 
-/// Returns a count with its noun, in the singular or plural.
+/// Returns a count with its noun as text, in the singular (`one`) or plural (`more`).
 pub fn number(count: usize, one: Text, more: fn(usize) -> String) -> String {
     if count == 1 { one.into() } else { more(count) }
 }
 
-/// Arrangement of an import's files, covered by undo.
+/// Arrangement of an import's files into products, covered by undo.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Arrangement {
     /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Files of each product, if changed by hand.
+    /// Identifiers of the files of each product, if the user has changed the grouping; else `None`.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files whose ambiguity was resolved.
+    /// Identifiers of the files whose ambiguity the user has resolved.
     pub answered: BTreeSet<String>,
 }
 
-/// Step from one arrangement of an import to another.
+/// Undoable step from one arrangement of an import's files to another.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Arranged {
     /// Files and folders of the import.
@@ -229,35 +230,35 @@ pub struct Arranged {
     pub after: Arrangement,
 }
 
-/// State in the table: number of the product and of the state, from 0.
+/// Row of the import table: index of the product and of its state.
 pub type Row = (usize, usize);
 
 /// Import: files that were read and are not stored yet.
 #[derive(Debug, Clone, Default)]
 pub struct Import {
-    /// Files and folders as they were given.
+    /// Files and folders that were opened for the import.
     pub paths: Vec<PathBuf>,
     /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Files of each product, if changed by hand.
+    /// Identifiers of the files of each product, if the user has changed the grouping; else `None`.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files whose ambiguity was resolved.
+    /// Identifiers of the files whose ambiguity the user has resolved.
     pub answered: BTreeSet<String>,
     /// Dataset files.
     pub sources: Vec<Arc<SourceFile>>,
     /// Products proposed from the files.
     pub products: Vec<Proposed>,
-    /// Errors of files that could not be read: file, place, what was found, what was expected.
+    /// Errors of files that could not be read, as text: file, position, what was found, what was expected.
     pub failures: Vec<String>,
-    /// Files that are not datasets: file and reason.
+    /// Files that are not datasets, as text: file and reason.
     pub left_out: Vec<String>,
-    /// Selected rows.
+    /// Selected rows of the table.
     pub selected: BTreeSet<Row>,
     /// Row that was selected last; its details are shown beside the table.
     pub shown: Option<Row>,
-    /// Products whose states are collapsed.
+    /// Indices of the products whose states are collapsed in the table.
     pub folded: BTreeSet<usize>,
-    /// Whether a new arrangement is being made: the products are still those of the one before.
+    /// Whether a new arrangement is being computed, while the products are still those of the previous one.
     pub arranging: bool,
 }
 
@@ -298,14 +299,14 @@ impl Import {
         self.products.iter().enumerate().flat_map(states)
     }
 
-    /// Returns the products that have a selected state.
+    /// Returns the indices of the products that have a selected state.
     pub fn selected_products(&self) -> Vec<usize> {
         let mut list: Vec<usize> = self.selected.iter().map(|row| row.0).collect();
         list.dedup();
         list
     }
 
-    /// Returns the files of the selected states, without products from packages.
+    /// Returns the identifiers of the files of the selected states, without those of products from packages.
     pub fn files_of_selected(&self) -> Vec<String> {
         let mut files: Vec<String> = Vec::new();
         for &(product, state) in &self.selected {
@@ -319,7 +320,7 @@ impl Import {
         files
     }
 
-    /// Returns the name in the list of drafts.
+    /// Returns the name of the import in the list of drafts.
     pub fn name(&self) -> String {
         let first = self.paths.first().map(|path| path.file_name().unwrap_or(path.as_os_str()).to_string_lossy());
         let first = first.unwrap_or_default();
@@ -331,26 +332,26 @@ impl Import {
     }
 }
 
-/// Texts and repairs of an imported product, as kept in a session.
+/// Texts and repairs of an imported product, as stored in a session.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct KeptProduct {
-    /// Hash of the files that it is made of.
+    /// Hash of the files of the product.
     pub source_hash: String,
-    /// Identifiers of its files.
+    /// Identifiers of the product's files.
     pub files: Vec<String>,
     /// Texts as typed.
     pub fields: ImportFields,
-    /// Names of its states.
+    /// Names and angles of the product's states.
     pub states: Vec<StateWords>,
-    /// Repairs by their names, in order.
+    /// Repairs in their text form, in their order.
     pub repairs: Vec<String>,
-    /// Whether it is stored even if its data are in the catalogue already.
+    /// Whether the product is stored even if its data are in the catalogue already.
     pub add_anyway: bool,
 }
 
 impl KeptProduct {
-    /// Creates the entry for a product as it is now.
+    /// Creates the stored entry of a product in its current state.
     pub fn of(product: &Proposed) -> Self {
         Self {
             source_hash: product.file_info.provenance.source_hash.clone(),
@@ -373,7 +374,7 @@ impl KeptProduct {
         self.repairs.iter().filter_map(|word| word.parse().ok()).collect()
     }
 
-    /// Whether the entry was kept for the same files.
+    /// Whether the entry was stored for the same files as those of `product`.
     pub fn is_about(&self, product: &Proposed) -> bool {
         if self.files.is_empty() {
             self.source_hash == product.file_info.provenance.source_hash
@@ -392,7 +393,7 @@ impl KeptProduct {
     }
 }
 
-/// Import that is not stored yet, as kept in a session. The files are read again.
+/// Import that is not in the catalogue yet, as stored in a session; its files are read again when it is restored.
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct KeptImport {
@@ -402,16 +403,16 @@ pub struct KeptImport {
     pub paths: Vec<PathBuf>,
     /// Grouping of the files into products.
     pub grouping: Grouping,
-    /// Files of each product, if changed by hand.
+    /// Identifiers of the files of each product, if the user has changed the grouping; else `None`.
     pub by_hand: Option<Vec<Vec<String>>>,
-    /// Files whose ambiguity was resolved.
+    /// Identifiers of the files whose ambiguity the user has resolved.
     pub answered: BTreeSet<String>,
-    /// Texts and repairs of the products.
+    /// Texts and repairs of the import's products.
     pub products: Vec<KeptProduct>,
 }
 
 impl KeptImport {
-    /// Creates the entry for an import.
+    /// Creates the stored entry of an import.
     pub fn of(import: &Import) -> Self {
         Self {
             name: import.name(),

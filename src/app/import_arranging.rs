@@ -1,4 +1,5 @@
-//! Products of the import sheet, made from files that were read, and changes from one arrangement of them to another.
+//! Creation of the products of an import from files that were read, and changes of the arrangement of files into
+//! products.
 
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed, StateWords, file_id};
@@ -13,16 +14,17 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Files of one product, by their places.
+/// Files of one proposed product, by their indices in the import.
 struct Part {
     files: Vec<usize>,
     angles: Option<Vec<f64>>,
     ambiguity: Option<Ambiguity>,
-    /// Name of the file that holds the same data.
+    /// Name of an earlier file with the same data, if there is one.
     same_as: Option<String>,
 }
 
-/// Returns the parts that names and contents propose. A file with the same data as an earlier one is a part of its own.
+/// Returns the groups of files that form a product each, by their names and contents. A file with the same data as an
+/// earlier one is a separate group.
 fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -> Vec<Part> {
     let mut first: HashMap<(&str, Vec<&str>), usize> = HashMap::new();
     let mut own = Vec::new();
@@ -55,7 +57,8 @@ fn proposed(sources: &[Arc<SourceFile>], places: &[usize], grouping: Grouping) -
     list
 }
 
-/// Returns the parts: the files that make a product together.
+/// Returns the groups of files that form a product each: those made by hand, and those that names and contents propose
+/// for all other files.
 fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<String>]>) -> Vec<Part> {
     let Some(by_hand) = by_hand else {
         return proposed(sources, &(0..sources.len()).collect::<Vec<_>>(), grouping);
@@ -89,18 +92,19 @@ fn parts(sources: &[Arc<SourceFile>], grouping: Grouping, by_hand: Option<&[Vec<
     list
 }
 
-/// Context in which products are made from files.
+/// Context in which products are created from the files of an import.
 pub struct Arranging<'a> {
-    /// Catalogue that may hold the same content already; `None` before it is open.
+    /// Catalogue, which may contain the same data already; `None` before it is open.
     pub shelf: Option<&'a dyn Shelf>,
-    /// Products of the arrangement before; those of the same files stay as they are.
+    /// Products of the previous arrangement; those with the same files are reused.
     pub before: Vec<Proposed>,
-    /// Texts and repairs kept for the same files.
+    /// Texts and repairs of a session or draft for the same files, if there are any.
     pub kept: Option<&'a KeptImport>,
 }
 
 impl Arranging<'_> {
-    /// Creates the products of an import from its files; `packed`: products that come from packages.
+    /// Creates the products of an import from its files; `packed`: products that come from packages. Errors are added
+    /// to the import.
     pub fn products(mut self, import: &mut Import, packed: Vec<Proposed>, progress: &dyn Progress) {
         let parts = parts(&import.sources, import.grouping, import.by_hand.as_deref());
         let mut list: Vec<(usize, Proposed)> = Vec::new();
@@ -149,7 +153,7 @@ impl Arranging<'_> {
         }
     }
 
-    /// Restores the texts and repairs that were kept for the same files.
+    /// Restores the texts and repairs of a product that were stored for the same files.
     fn take_kept(&self, product: &mut Proposed, failures: &mut Vec<String>) {
         carry_over(&self.before, product);
         if let Some(kept) = self.kept.and_then(|kept| kept.products.iter().find(|kept| kept.is_about(product))) {
@@ -172,8 +176,8 @@ impl Arranging<'_> {
     }
 }
 
-/// Copies what was typed about the product's files while they made other products: names and angles of states, maker,
-/// kind, tags and author. The name is that of its own files.
+/// Copies texts that were typed for the same files in the previous arrangement to a product: names and angles of
+/// states, maker, kind, tags and author. The product's name is derived from its files.
 fn carry_over(before: &[Proposed], product: &mut Proposed) {
     let holding = |file: &String| before.iter().find(|old| !old.packed && old.files.contains(file));
     if let Some(old) = product.files.first().and_then(holding) {
@@ -197,8 +201,8 @@ fn carry_over(before: &[Proposed], product: &mut Proposed) {
     }
 }
 
-/// Copies what was typed and answered while the products of a new arrangement were made; `names`: those of the products
-/// before, by their files, as they were when it was requested.
+/// Copies texts and answers that the user has typed while a new arrangement was computed; `names`: names of the
+/// products, by their files, at the time of the request.
 pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)]) {
     new.answered.clone_from(&now.answered);
     for product in &mut new.products {
@@ -221,7 +225,7 @@ pub fn catch_up(new: &mut Import, now: &Import, names: &[(Vec<String>, String)])
     }
 }
 
-/// Returns the products of the catalogue that hold all data of this one.
+/// Returns the products of the catalogue that contain all data of a proposed product.
 fn known(product: &Proposed, shelf: &dyn Shelf) -> Vec<Known> {
     let mut list = shelf.products_from(&product.file_info.provenance.source_hash).unwrap_or_default();
     let mut holding: Option<Vec<Known>> = None;
@@ -253,7 +257,7 @@ fn of_files(files: &[&SourceFile], ids: Vec<String>, part: Part) -> Proposed {
     product
 }
 
-/// Creates a product from datasets and their metadata.
+/// Creates a proposed product from datasets and their metadata; `stem`: file name without extension.
 fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed {
     let diagnoses = examine_all(&datasets);
     let datasets: Vec<_> = datasets.into_iter().map(Arc::new).collect();
@@ -278,7 +282,7 @@ fn of_datasets(meta: NewProduct, datasets: Vec<Dataset>, stem: &str) -> Proposed
     }
 }
 
-/// Creates a product from a package.
+/// Creates a proposed product from a product of a package.
 pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Proposed {
     let id = format!("{package}#{}", meta.key.as_deref().unwrap_or(&meta.name));
     let contents = datasets.par_iter().map(content_of).collect();
@@ -288,7 +292,8 @@ pub fn of_package(package: &str, datasets: Vec<Dataset>, meta: NewProduct) -> Pr
     Proposed { files: vec![id], packed: true, contents, sources, parts, ..product }
 }
 
-/// Arranges the files of an import in another way; texts, repairs and answers stay with products that remain the same.
+/// Creates the products of an import again after its arrangement has changed; products with the same files keep their
+/// texts, repairs and answers.
 pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn Progress) -> Outcome {
     let before = std::mem::take(&mut import.products);
     let names = before.iter().map(|one| (one.files.clone(), one.fields.name.clone())).collect();
@@ -301,7 +306,7 @@ pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn 
     Outcome::Rearranged(Box::new(import), names)
 }
 
-/// Returns the hemispherical transmittances.
+/// Returns the hemispherical visible transmittance of each dataset; `None` without a transmission.
 fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
     let tau = |dataset: &Arc<Dataset>| {
         let visible = &dataset.visible;
@@ -310,7 +315,7 @@ fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
     datasets.iter().map(tau).collect()
 }
 
-/// Returns the product with its repairs made on all states, and its data checked.
+/// Returns a product with its requested repairs applied to the original data of all states, and the results checked.
 fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
     let results: Result<Vec<Arc<Dataset>>, _> =
         product.originals.iter().map(|dataset| repaired_all(dataset, &product.repairs).map(Arc::new)).collect();
@@ -319,7 +324,7 @@ fn repaired(product: &Proposed) -> Result<Proposed, AppError> {
     Ok(Proposed { diagnoses, taus: taus(&datasets), datasets, ..product.clone() })
 }
 
-/// Makes repairs on all states of a product and checks the results.
+/// Applies the requested repairs to all states of a product and checks the results, in a job.
 pub fn repair_product(product: &Proposed) -> Outcome {
     Outcome::Repaired(product.files.clone(), repaired(product).map(Box::new))
 }

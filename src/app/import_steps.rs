@@ -1,9 +1,9 @@
-//! Commands of the import sheet's table: choose rows, group or separate files, name states, resolve ambiguities.
+//! Commands of the table in the import sheet: select rows, group or separate files, name states, resolve ambiguities.
 
 use super::import::{ImportFields, Row, StateWords};
 use crate::texts::{Text, catalogue as text};
 
-/// Way to select a row.
+/// Selection mode of a click on a row of the import table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Choose {
     /// Select this row only.
@@ -14,14 +14,14 @@ pub enum Choose {
     UpTo,
 }
 
-/// Text about products that is typed once for all selected ones.
+/// Descriptive text that the user can type once for all selected products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Word {
     /// Name of the maker.
     Manufacturer,
     /// Kind of system.
     Kind,
-    /// Search terms.
+    /// Tags by which the products are found.
     Tags,
     /// Person or body that measured or computed the data.
     Author,
@@ -30,10 +30,10 @@ pub enum Word {
 }
 
 impl Word {
-    /// All texts, in the order of the sheet.
+    /// All these texts, in the order of the import sheet.
     pub const ALL: [Self; 5] = [Self::Manufacturer, Self::Kind, Self::Tags, Self::Author, Self::License];
 
-    /// Returns the label of the field.
+    /// Returns the label of the text's field.
     pub const fn label(self) -> Text {
         match self {
             Self::Manufacturer => text::MANUFACTURER,
@@ -44,7 +44,7 @@ impl Word {
         }
     }
 
-    /// Returns the text in the texts of a product.
+    /// Returns this text among the descriptive texts of a product, to be changed.
     pub const fn of(self, fields: &mut ImportFields) -> &mut String {
         match self {
             Self::Manufacturer => &mut fields.manufacturer,
@@ -56,7 +56,7 @@ impl Word {
     }
 }
 
-/// Command about the table.
+/// Command about the table of the import sheet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Step {
     /// Select the row of a state.
@@ -69,16 +69,16 @@ pub enum Step {
     Fold(usize),
     /// Make the selected files the states of one product.
     Together,
-    /// Make each selected file a product of its own.
+    /// Make each selected file a separate product.
     Separate,
-    /// Make the selected files states of this product.
+    /// Make the selected files states of the product with this index.
     StatesOf(usize),
     /// Set name and angle of a state.
     Name(Row, StateWords),
-    /// Set a text of all products with a selected row.
+    /// Set a descriptive text of all products with a selected row.
     Word(Word, String),
-    /// Accept the proposal for this product.
+    /// Accept the proposed grouping of the files of the product with this index.
     Settle(usize),
-    /// Accept the proposals for all products.
+    /// Accept the proposed grouping of the files of all products.
     SettleAll,
 }

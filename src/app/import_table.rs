@@ -1,4 +1,4 @@
-//! Acting on the import sheet's table.
+//! Execution of commands about the table of the import sheet.
 
 use super::import::{Arranged, Arrangement, Import, Row};
 use super::import_arranging::{catch_up, rearranged};
@@ -31,7 +31,7 @@ impl Import {
         self.rows().filter(|row| row.0 == product).collect()
     }
 
-    /// Returns the current arrangement as one made by hand, without these files.
+    /// Returns the current grouping of the files into products as lists of file identifiers, without the given files.
     fn without(&self, files: &[String]) -> Vec<Vec<String>> {
         let rest = |one: &super::import::Proposed| -> Vec<String> {
             one.files.iter().filter(|file| !files.contains(file)).cloned().collect()
@@ -46,7 +46,7 @@ impl Import {
 }
 
 impl App {
-    /// Acts on a command about the table.
+    /// Executes a command about the table of the import sheet.
     pub(super) fn import_step(&mut self, step: Step) {
         let Some(import) = &mut self.state.import else { return };
         let before = import.arrangement();
@@ -142,7 +142,8 @@ impl App {
         }
     }
 
-    /// Shows a new arrangement and keeps what was typed meanwhile. An arrangement of an import that is gone is dropped.
+    /// Shows a new arrangement with texts that were typed meanwhile. The arrangement of an import that is no longer
+    /// open is dropped.
     pub(super) fn take_rearranged(&mut self, mut new: Import, names: &[(Vec<String>, String)]) {
         if let Some(now) = self.state.import.as_ref().filter(|now| now.paths == new.paths) {
             catch_up(&mut new, now, names);
@@ -151,7 +152,7 @@ impl App {
         }
     }
 
-    /// Stops making a new arrangement: the one that is shown stays.
+    /// Stops the computation of a new arrangement, so that the current one stays.
     pub(super) fn stop_arranging(&mut self) {
         if let Some(import) = self.state.import.as_mut().filter(|import| import.arranging) {
             import.arranging = false;
@@ -160,7 +161,7 @@ impl App {
         }
     }
 
-    /// Makes products from these groups of files, in the background.
+    /// Starts the creation of products from these groups of files in a job.
     fn arrange_by_hand(&mut self, groups: Vec<Vec<String>>) {
         if let Some(import) = &mut self.state.import {
             import.by_hand = Some(groups);
@@ -168,7 +169,7 @@ impl App {
         }
     }
 
-    /// Groups the files into products in another way.
+    /// Changes the rule by which files are grouped into products, and starts the new arrangement.
     pub(super) fn group_import(&mut self, grouping: Grouping) {
         let Some(import) = &mut self.state.import else { return };
         if import.grouping != grouping || import.by_hand.is_some() {

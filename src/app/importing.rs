@@ -1,4 +1,4 @@
-//! Acting on the import sheet: reads what was opened, tries repairs, stores products, keeps drafts.
+//! Execution of commands about the import sheet: reads files, applies repairs, stores products, manages drafts.
 
 use super::error::AppError;
 use super::import::{Import, ImportFields, KeptImport, Proposed};
@@ -19,7 +19,7 @@ impl App {
         self.read_again(paths, Grouping::Proposed, None);
     }
 
-    /// Reads files, and restores the texts and repairs that were kept for them.
+    /// Reads files into an import, and restores the texts and repairs that were stored for them.
     pub(super) fn read_again(&mut self, paths: Vec<PathBuf>, grouping: Grouping, kept: Option<KeptImport>) {
         if paths.is_empty() {
             return;
@@ -41,7 +41,7 @@ impl App {
         self.start(Lane::Import, move |job| read_files(&asked, job));
     }
 
-    /// Reads the files that were opened before the catalogue was ready.
+    /// Starts reading the files that were opened before the catalogue was ready.
     pub(super) fn start_waiting_files(&mut self) {
         let (kept, new): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.waiting_files).into_iter().partition(|(.., kept)| kept.is_some());
@@ -58,7 +58,7 @@ impl App {
         self.read_paths(new);
     }
 
-    /// Shows an import; an earlier one of other files becomes a draft.
+    /// Shows an import that was read; a previous one of other files becomes a draft.
     pub(super) fn take_import(&mut self, import: Import) {
         self.state.under_way = None;
         self.keep_draft_of(|old| old.paths != import.paths);
@@ -67,7 +67,7 @@ impl App {
         self.repair_next();
     }
 
-    /// Moves the open import to the drafts, if it holds something.
+    /// Moves the open import to the drafts if `which` returns `true` for it.
     fn keep_draft_of(&mut self, which: impl Fn(&Import) -> bool) {
         let Some(old) = self.state.import.take() else { return };
         if which(&old) && old.wanted().next().is_some() {
@@ -76,7 +76,7 @@ impl App {
         }
     }
 
-    /// Continues a draft; the open import becomes a draft.
+    /// Opens a draft, given by its number from 0, again; the open import becomes a draft.
     pub(super) fn open_draft(&mut self, number: usize) {
         if number >= self.state.drafts.len() {
             return;
@@ -86,7 +86,7 @@ impl App {
         self.read_again(draft.paths.clone(), draft.grouping, Some(draft));
     }
 
-    /// Keeps the open import as a draft.
+    /// Stores the open import as a draft and closes its sheet.
     pub(super) fn keep_draft(&mut self) {
         self.keep_draft_of(|_| true);
         self.state.sheet = None;
@@ -148,7 +148,8 @@ impl App {
         self.state.import.as_mut()?.products.get_mut(number)
     }
 
-    /// Changes the repairs of a product, which are made and checked in the background; until then it is not stored.
+    /// Changes the repairs of an imported product (number from 0). They are applied and checked in a job; until it has
+    /// ended the product cannot be stored.
     pub(super) fn repair_import(&mut self, number: usize, change: impl FnOnce(&mut Vec<Repair>)) {
         if let Some(product) = self.proposed(number) {
             change(product.requested_repairs.get_or_insert_with(|| product.repairs.clone()));
@@ -156,7 +157,7 @@ impl App {
         }
     }
 
-    /// Starts the repair of the next product that waits for one.
+    /// Starts the repair job of the next product that waits for one.
     pub(super) fn repair_next(&mut self) {
         let import = self.state.import.as_ref().filter(|_| !self.jobs.busy(Lane::Repair));
         let Some(product) =
@@ -169,7 +170,8 @@ impl App {
         self.start(Lane::Repair, move |_| repair_product(&product));
     }
 
-    /// Stores the repaired data; texts typed meanwhile stay.
+    /// Replaces the data of an imported product, identified by its files, by the repaired ones; texts typed meanwhile
+    /// are retained.
     pub(super) fn take_repaired(&mut self, files: &[String], repaired: Result<Box<Proposed>, AppError>) {
         let products = self.state.import.iter_mut().flat_map(|import| &mut import.products);
         if let Some(product) = products.into_iter().find(|product| product.files == files) {
@@ -189,7 +191,8 @@ impl App {
         self.repair_next();
     }
 
-    /// Stores all products that are ready, as one undo step. The others stay in the sheet.
+    /// Stores all products of the import that are ready in the catalogue, as one undo step. The others stay in the
+    /// sheet.
     pub(super) fn add_import(&mut self) {
         let Some(mut import) =
             self.state.import.take_if(|import| !import.arranging && import.products.iter().any(Proposed::ready))
@@ -215,7 +218,7 @@ impl App {
         }
     }
 
-    /// Stores products as an undo step of its own, and closes their sheet.
+    /// Stores products in the catalogue as a separate undo step, and closes their sheet.
     pub(super) fn add_to_catalogue(&mut self, additions: Vec<Addition>) {
         self.state.sheet = None;
         end_step(&mut self.undoer, &self.state.document);

@@ -1,4 +1,4 @@
-//! Incident direction shared by the tiles: the study's module, as the window uses it.
+//! Incident direction that the tiles have in common: re-export of the study's module.
 
 pub use crate::study::incidence::*;
 

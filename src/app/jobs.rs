@@ -1,11 +1,11 @@
 //! Jobs that may take longer than a frame: lanes, generations, cancelling, progress.
 //!
-//! Each [`Lane`] runs one job at a time. A newer job of the same lane cancels the older one: its progress then says
-//! "cancelled", and what it still returns is dropped. Results come back through a channel that the window polls. A
-//! panic inside a job is caught and reported as a failure; the window continues to run.
+//! Each [`Lane`] runs one job at a time. A newer job of the same lane cancels the older one, whose result is then
+//! dropped. Results come back through a channel that the window polls. A panic inside a job is caught and reported as a
+//! failure; the window continues to run.
 //!
-//! Background jobs give way: wherever they report progress or ask whether they are still wanted, they rest until no job
-//! with a visible result is under way ([`Priority`]).
+//! Background jobs yield: whenever they report progress or check for cancellation, they pause until no job with a
+//! visible result is running ([`Priority`]).
 
 use super::error::JobError;
 pub use super::lane::{Lane, Priority};
@@ -19,7 +19,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Number of jobs whose results are still to be shown.
+/// Count of the running jobs with visible results, for which background jobs pause.
 #[derive(Default)]
 struct Sight {
     awaited: Mutex<usize>,
@@ -27,25 +27,25 @@ struct Sight {
 }
 
 impl Sight {
-    /// Locks the count. It is right even if a thread panicked while it held the lock.
+    /// Locks the count, which is valid even if a thread panicked while it held the lock.
     fn lock(&self) -> MutexGuard<'_, usize> {
         self.awaited.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until nothing is awaited or the caller is cancelled.
+    /// Waits until no job with a visible result is running, or until the caller is cancelled.
     fn rest(&self, cancelled: &AtomicBool) {
         let in_the_way = |awaited: &mut usize| *awaited > 0 && !cancelled.load(Ordering::Relaxed);
         drop(self.fewer.wait_while(self.lock(), in_the_way));
     }
 
-    /// Wakes the resting jobs, so that they check again.
+    /// Wakes the paused background jobs, so that they check the count again.
     fn wake(&self) {
         drop(self.lock());
         self.fewer.notify_all();
     }
 }
 
-/// Guard that keeps background jobs resting as long as it lives.
+/// Guard during whose lifetime background jobs pause.
 struct Awaited(Arc<Sight>);
 
 impl Awaited {
@@ -62,34 +62,35 @@ impl Drop for Awaited {
     }
 }
 
-/// State of a job, shared by the worker and the window.
+/// State of a job, shared by its thread and the window: progress, stage, cancellation.
 #[derive(Default)]
 pub struct JobState {
-    /// Count of visible jobs that the job gives way to; `None` if it does not give way.
+    /// Count of jobs with visible results for which this job pauses; `None` if it does not pause.
     gives_way: Option<Arc<Sight>>,
     cancelled: AtomicBool,
     done: AtomicUsize,
     total: AtomicUsize,
-    /// Current stage, and its start.
+    /// Current stage of the job, and the time at which it began.
     stage: Mutex<(&'static str, Option<Instant>)>,
 }
 
-/// Time that a stage must have run before its remaining time is estimated.
+/// Duration of a stage from which its remaining time is estimated.
 const JUDGED: Duration = Duration::from_secs(1);
 
 impl JobState {
-    /// Returns the finished share of the current stage, 0 … 1; `None` before the first report.
+    /// Returns the finished share of the job's current stage, 0 … 1; `None` before the first report of progress.
     pub fn fraction(&self) -> Option<f32> {
         let total = self.total();
         (total > 0).then(|| (self.done() as f32 / total as f32).clamp(0.0, 1.0))
     }
 
-    /// Returns the current stage; empty before the first report.
+    /// Returns the key of the job's current stage; empty before the first report of progress.
     pub fn stage(&self) -> &'static str {
         self.stage.lock().unwrap_or_else(PoisonError::into_inner).0
     }
 
-    /// Returns the estimated time left in the current stage, from its mean speed so far; `None` if it is not known yet.
+    /// Returns the estimated remaining time of the current stage, from its mean speed so far; `None` if it is not known
+    /// yet.
     pub fn left(&self) -> Option<Duration> {
         let spent = self.stage.lock().unwrap_or_else(PoisonError::into_inner).1?.elapsed();
         let share = f64::from(self.fraction()?);
@@ -139,13 +140,13 @@ impl Progress for JobState {
     }
 }
 
-/// Job that is under way.
+/// Running job of a lane.
 struct Running {
     generation: u64,
     state: Arc<JobState>,
 }
 
-/// Result of a job in a lane.
+/// Result of a finished job, with its lane.
 pub struct Finished<M> {
     /// Lane of the job.
     pub lane: Lane,
@@ -153,7 +154,7 @@ pub struct Finished<M> {
     pub outcome: Result<M, JobError>,
     /// Stage of the job at its end.
     pub stage: &'static str,
-    /// Guard that is dropped with this, when the outcome has been stored and its follow-up jobs are started.
+    /// Guard that keeps background jobs paused until the result has been stored and follow-up jobs have started.
     _awaited: Option<Awaited>,
 }
 
@@ -168,7 +169,8 @@ pub struct JobView {
 /// All lanes with their jobs. `M`: result type of the jobs.
 pub struct Jobs<M> {
     running: BTreeMap<Lane, Running>,
-    /// Progress that the background reported last: it works in short jobs, and its bar does not restart with each.
+    /// Progress of background work, reported by its last job: it consists of short jobs, with which the progress bar
+    /// does not restart.
     background: Arc<JobState>,
     next: u64,
     sight: Arc<Sight>,
@@ -184,7 +186,7 @@ impl<M: Send + 'static> Default for Jobs<M> {
 }
 
 impl<M: Send + 'static> Jobs<M> {
-    /// Starts a job and cancels an older one in the same lane. `wake` is called from the worker when it ends.
+    /// Starts a job and cancels an older one in the same lane. `wake` is called from the job's thread when it ends.
     pub fn start(
         &mut self,
         lane: Lane,
@@ -229,14 +231,14 @@ impl<M: Send + 'static> Jobs<M> {
         }
     }
 
-    /// Cancels the job of a lane, so that its result will not arrive; returns whether there was one.
+    /// Cancels the job of a lane, whose result is then dropped; returns whether there was one.
     pub fn cancel(&mut self, lane: Lane) -> bool {
         let Some(job) = self.running.remove(&lane) else { return false };
         job.state.withdraw();
         true
     }
 
-    /// Returns the results since the last call. Never waits.
+    /// Returns the results of jobs that have finished since the last call, without waiting.
     pub fn poll(&mut self) -> Vec<Finished<M>> {
         let mut list = Vec::new();
         while let Ok((generation, finished)) = self.receiver.try_recv() {

@@ -1,4 +1,4 @@
-//! Editing stored products: their texts, deleting and restoring. Undo covers both.
+//! Editing of stored products: changing texts, deleting and restoring. Undo covers all of it.
 
 use super::changes::{Change, Editing, Looked};
 use super::editing::look;
@@ -18,7 +18,7 @@ impl App {
         key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()))
     }
 
-    /// Reads a product for its sheet.
+    /// Starts reading a product for the sheet in which it is edited.
     pub(super) fn edit_product(&mut self, key: Option<String>) {
         if let Some(key) = self.meant(key) {
             self.queue(move |shelf| Outcome::Editing(look(shelf, &key)));
@@ -35,14 +35,14 @@ impl App {
         }
     }
 
-    /// Stores what was typed in the sheet of a product.
+    /// Stores the changes typed in the sheet of a product.
     pub(super) fn save_words(&mut self) {
         let Some(editing) = self.state.editing.take_if(|editing| editing.problem().is_none()) else { return };
         self.state.sheet = None;
         editing.changes().into_iter().for_each(|change| self.change(change));
     }
 
-    /// Deletes a product, restorable; the next one of the list is shown in its place.
+    /// Deletes a product, which can be restored; the next one of the list is selected instead.
     pub(super) fn delete_product(&mut self, key: Option<String>) {
         let Some(key) = self.meant(key) else { return };
         if self.state.deleted.iter().any(|one| one.key == key) {
@@ -69,13 +69,13 @@ impl App {
         self.note_change(Change::Deleted { key, name });
     }
 
-    /// Makes a change to the catalogue as an undo step of its own.
+    /// Makes a change of the catalogue, as a separate undo step.
     pub(super) fn change(&mut self, change: Change) {
         end_step(&mut self.undoer, &self.state.document);
         self.note_change(change);
     }
 
-    /// Makes a change to the catalogue, and with it all changes of the document since the last step, as one undo step.
+    /// Makes a change of the catalogue, as one undo step together with all changes of the document since the last step.
     fn note_change(&mut self, change: Change) {
         let number = self.state.changes.len();
         self.state.changes.push(change);
@@ -84,7 +84,7 @@ impl App {
         self.make_change(number, true);
     }
 
-    /// Makes a change of this session, or reverts it.
+    /// Makes a recorded change of this session (given by its number) in the catalogue if `forth`, or reverts it.
     pub(super) fn make_change(&mut self, number: usize, forth: bool) {
         let Some(change) = self.state.changes.get(number).cloned() else { return };
         self.queue(move |shelf| Outcome::Changed(number, forth, change.make(shelf, forth)));
@@ -128,7 +128,7 @@ impl App {
         }
     }
 
-    /// Reads the folders of packages that are subscribed to.
+    /// Starts reading the subscribed folders of packages.
     pub(super) fn sync_subscribed(&mut self) {
         if let Some(shelf) = self.state.shelf() {
             self.start(Lane::Subscribed, move |job| Outcome::Synced(shelf.sync(job)));
@@ -152,7 +152,7 @@ impl App {
         }
     }
 
-    /// Looks up the deleted products.
+    /// Starts reading the list of deleted products.
     pub(super) fn look_up_deleted(&mut self) {
         self.queue(|shelf| Outcome::Deleted(shelf.deleted()));
     }

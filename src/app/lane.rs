@@ -2,16 +2,16 @@
 
 use crate::texts::{Text, catalogue as products, choose, scene, shell, year};
 
-/// Lane: subject of a job. Later requests of a lane replace earlier ones.
+/// Lane: subject of a job, e.g. the room's illuminances. A new job of a lane replaces the earlier one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Lane {
-    /// Opening and searching the catalogue.
+    /// Opening the catalogue, and searching it for the product list.
     Catalogue,
     /// Searching the catalogue for the palette.
     Palette,
     /// Reading of files that the user opened.
     Import,
-    /// Grouping imported files into other products.
+    /// Grouping of imported files into products.
     Arrange,
     /// Repairs of imported products.
     Repair,
@@ -27,11 +27,11 @@ pub enum Lane {
     Store,
     /// Reading folders of packages that are subscribed to.
     Subscribed,
-    /// Sky, sun and systems of the scene as typed.
+    /// Sky, sun and selected product of the current scene.
     Scene,
-    /// Luminous intensity distribution.
+    /// Luminous intensity distribution of the first aperture.
     Lid,
-    /// Illuminances in the room.
+    /// Illuminances at the sensor points of the room.
     Room,
     /// Illuminances of the room's surfaces.
     Surfaces,
@@ -41,23 +41,23 @@ pub enum Lane {
     Annual,
     /// Ranking of products by their annual simulations.
     Rank,
-    /// Reading the weather file that hours are picked from.
+    /// Reading of the weather file from which hours are chosen.
     Weather,
-    /// Data of one incident direction in another form.
+    /// Filtered or compressed data of one incident direction for the BTDF tile.
     DataForm,
     /// Map of interpolation schemes between the directions of the data.
     Schemes,
-    /// Error against run time.
+    /// Error against computing time, by runs with rising effort.
     Accuracy,
-    /// Effects of obstructions.
+    /// Effects of the obstructions on the illuminance of the apertures.
     Obstructions,
-    /// Computing the data of the chosen state, which the catalogue does not hold yet.
+    /// Computation of the selected state's data, which the catalogue does not contain yet.
     Product,
-    /// Computing data of built-in products in advance.
+    /// Computation of data of built-in products in advance.
     Builtin,
     /// Results of the candidates of the comparison.
     Compare,
-    /// Computing data from a description.
+    /// Computation of data from a system description (virtual goniophotometer).
     Goniophotometer,
     /// Preview of an export.
     Preview,
@@ -68,7 +68,7 @@ pub enum Lane {
 }
 
 impl Lane {
-    /// Returns the label in the status line.
+    /// Returns the label of the lane in the status line.
     pub const fn word(self) -> Text {
         match self {
             Self::Catalogue => shell::LANE_CATALOGUE,
@@ -104,7 +104,7 @@ impl Lane {
         }
     }
 
-    /// Returns the priority.
+    /// Returns the priority of the lane's jobs.
     pub const fn priority(self) -> Priority {
         match self {
             Self::Builtin => Priority::Background,
@@ -122,8 +122,8 @@ impl Lane {
 pub enum Priority {
     /// Priority of jobs that visible results depend on.
     Visible,
-    /// Priority of jobs that may wait for an answer of the user: they neither give way nor are given way to.
+    /// Priority of jobs that may wait for an answer of the user: they do not pause, nor do other jobs pause for them.
     Asking,
-    /// Priority of jobs without visible results: they rest while any visible result is being computed.
+    /// Priority of jobs without visible results: they pause while any visible result is being computed.
     Background,
 }

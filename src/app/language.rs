@@ -2,7 +2,7 @@
 
 use crate::texts::{Language, Text, shell};
 
-/// Language that the user chose.
+/// Choice of the window's language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum LanguageChoice {
     /// Language of the desktop.
@@ -18,7 +18,7 @@ impl LanguageChoice {
     /// All choices, in the order of the menu.
     pub const ALL: [Self; 3] = [Self::System, Self::English, Self::German];
 
-    /// Returns the label: languages by their own names.
+    /// Returns the label of the choice; languages have their native names.
     pub const fn word(self) -> Text {
         match self {
             Self::System => shell::AS_THE_DESKTOP,
@@ -27,7 +27,7 @@ impl LanguageChoice {
         }
     }
 
-    /// Returns the language, if that of the desktop is `system`.
+    /// Returns the language of the window for this choice; `system`: language of the desktop.
     pub fn language(self, system: Language) -> Language {
         match self {
             Self::System => system,

@@ -1,4 +1,4 @@
-//! Computations for the views of the BTDF tile on the data.
+//! Computations of the data that the BTDF tile shows (filtered, compressed, map of schemes).
 
 use super::data_looks::{DataLook, FormKey, FormResult, NoSchemes, SchemesResult};
 use super::incidence::Incidence;
@@ -13,11 +13,11 @@ use crate::compute::incidence::ways::triangles;
 use crate::study::data_form::{DataForm, NoForm, compressed, filtered};
 use crate::study::scene_file::Interpolation;
 
-/// Tile that shows the views.
+/// Tile that shows these data.
 const TILE: Tile = tiles::BTDF;
 
 impl App {
-    /// Changes the view on the data, and makes the tile visible.
+    /// Changes the choice of the data that the BTDF tile shows, and makes the tile visible.
     pub(super) fn look_at_data(&mut self, change: impl FnOnce(&mut DataLook)) {
         change(&mut self.state.data_look);
         // What was stopped is asked for again.
@@ -30,7 +30,7 @@ impl App {
         self.bring_up(TILE);
     }
 
-    /// Starts the missing computations for the view of the BTDF tile.
+    /// Starts the computation of missing data for the BTDF tile, if it is visible.
     pub(super) fn ask_data_looks(&mut self) {
         let state = &self.state;
         let look = state.data_look;

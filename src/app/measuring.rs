@@ -1,4 +1,5 @@
-//! Acting on the goniophotometer's sheet: fills it, computes state after state, stores the results.
+//! Execution of commands about the sheet of the virtual goniophotometer: loads texts, computes state after state,
+//! stores the results.
 
 use super::error::AppError;
 use super::examples::EXAMPLES;
@@ -12,7 +13,8 @@ use crate::texts::goniophotometer as texts;
 use std::path::PathBuf;
 
 impl App {
-    /// Fills the sheet with a text and opens it.
+    /// Opens the sheet of the virtual goniophotometer with the text of a system file; `base`: folder to which its file
+    /// names are relative.
     pub(super) fn open_system(&mut self, text: String, base: PathBuf) {
         self.state.sheet = Some(Sheet::Goniophotometer);
         let bench = &mut self.state.goniophotometer;
@@ -22,14 +24,14 @@ impl App {
         bench.set_text(text);
     }
 
-    /// Fills the sheet with an example.
+    /// Opens the sheet of the virtual goniophotometer with the example of the given number (from 0).
     pub(super) fn open_example(&mut self, number: usize) {
         if let Some(example) = EXAMPLES.get(number) {
             self.open_system(example.text.to_owned(), PathBuf::new());
         }
     }
 
-    /// Computes the described system; a stopped run resumes.
+    /// Starts the computation of the described system, or resumes a stopped run.
     pub(super) fn measure_system(&mut self) {
         self.state.sheet = Some(Sheet::Goniophotometer);
         if self.jobs.busy(Lane::Goniophotometer) {
@@ -69,7 +71,7 @@ impl App {
         }
     }
 
-    /// Stores all states as a product; undo removes it again.
+    /// Stores all states of the run as a product in the catalogue; undo removes it again.
     pub(super) fn add_measured(&mut self) {
         let Some(run) = self.state.goniophotometer.run.as_ref().filter(|run| run.complete()) else {
             self.toasts.info(texts::COMPUTE_FIRST);

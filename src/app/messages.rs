@@ -1,35 +1,35 @@
-//! Messages of the window: shown for as long as it takes to read them, then kept in a list.
+//! Messages of the window: shown as long as it takes to read them, then listed in a sheet.
 
 use super::clock;
 use crate::texts::{Text, shell, short_numbers, visible};
 use std::collections::VecDeque;
 use std::path::PathBuf;
 
-/// Maximum number of messages kept.
+/// Maximum number of messages in the list; older ones are removed.
 const MOST: usize = 200;
 /// Minimum and maximum time that a message is shown. \[s\]
 const SECONDS: [f64; 2] = [4.0, 40.0];
-/// Additional time per character, at a slow reader's pace. \[s\]
+/// Time that a message is shown per character, for slow readers. \[s\]
 const PER_CHARACTER: f64 = 0.07;
 
-/// Maximum time that one frame counts for: a longer frame came late. \[s\]
+/// Maximum time by which one frame reduces the remaining time of messages; a longer frame was delayed. \[s\]
 const LATE: f64 = 0.5;
 
 /// Severity of a message.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
-    /// Note.
+    /// Note, for information.
     Info,
-    /// Confirmation that something was done.
+    /// Confirmation of a successful action.
     Success,
     /// Warning.
     Warning,
-    /// Error: something was not done.
+    /// Error: an action failed.
     Error,
 }
 
 impl Weight {
-    /// Returns the label.
+    /// Returns the label of the severity.
     pub const fn word(self) -> Text {
         match self {
             Self::Info => shell::NOTE,
@@ -40,7 +40,7 @@ impl Weight {
     }
 }
 
-/// Message of the window.
+/// Message of the window to the user.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Message {
     /// Unique number of the message.
@@ -51,9 +51,9 @@ pub struct Message {
     pub text: String,
     /// Clock time of the message, e.g. `14:03`.
     pub at: String,
-    /// Time that it is still shown. \[s\]
+    /// Remaining time for which the message is shown. \[s\]
     pub left: f64,
-    /// Report that belongs to the message.
+    /// Path of the report on an internal error that belongs to the message, if there is one.
     pub report: Option<PathBuf>,
 }
 
@@ -66,7 +66,7 @@ pub struct Messages {
     clock: f64,
 }
 
-/// Returns the time that a text is shown. \[s\]
+/// Returns the time for which a message with this text is shown. \[s\]
 pub fn seconds(text: &str) -> f64 {
     let [least, most] = SECONDS;
     (least + PER_CHARACTER * text.chars().count() as f64).min(most)
@@ -91,7 +91,7 @@ impl Messages {
         self.say(Weight::Info, text.into(), None);
     }
 
-    /// Shows that something was done.
+    /// Shows the confirmation of a successful action.
     pub fn success(&mut self, text: impl Into<String>) {
         self.say(Weight::Success, text.into(), None);
     }
@@ -131,27 +131,27 @@ impl Messages {
         self.list.iter().filter(|message| message.left > 0.0)
     }
 
-    /// Lets time pass up to a moment of the window's clock \[s\] for all messages that are shown, except the one under
-    /// the pointer. A frame that came late counts for a moment only: what was not visible was not read.
+    /// Reduces the remaining time of all visible messages up to the time `now` of the window's clock \[s\], except of
+    /// the message `held` under the pointer. A delayed frame counts only in part, since its messages were not visible.
     pub fn pass_to(&mut self, now: f64, held: Option<u64>) {
         let passed = (now - self.clock).clamp(0.0, LATE);
         self.clock = now;
         self.pass(passed, held);
     }
 
-    /// Lets time pass for all messages but `held`. \[s\]
+    /// Reduces the remaining time of all messages but `held` by `seconds`.
     fn pass(&mut self, seconds: f64, held: Option<u64>) {
         for message in self.list.iter_mut().filter(|message| Some(message.id) != held) {
             message.left = (message.left - seconds).max(0.0);
         }
     }
 
-    /// Hides one message, or all; the list keeps them.
+    /// Hides the message with this number, or all; they remain in the list.
     pub fn dismiss(&mut self, id: Option<u64>) {
         self.list.iter_mut().filter(|one| id.is_none_or(|id| id == one.id)).for_each(|one| one.left = 0.0);
     }
 
-    /// Removes all messages.
+    /// Removes all messages from the list.
     pub fn clear(&mut self) {
         self.list.clear();
     }

@@ -1,4 +1,4 @@
-//! Date and time of the scene: the study's module, as the window uses it.
+//! Date and time of the scene: re-export of the study's module.
 
 pub use crate::study::moment::*;
 

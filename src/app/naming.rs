@@ -16,13 +16,15 @@ fn product(state: &State) -> String {
     if product.is_empty() { "window".to_owned() } else { product }
 }
 
-/// Returns what fills the aperture as parts of a file name: the selected product and state, or the scene's own system.
+/// Returns the system in the aperture as parts of a file name: the selected product and state, or the scene's ideal
+/// system or dataset file.
 fn in_room(state: &State) -> [String; 2] {
     let words = |keys: &SystemKeys| [safe(&title::system(keys).to_lowercase()), String::new()];
     own_system(&state.document.scene).map_or_else(|| [product(state), safe(&state.shown_state)], words)
 }
 
-/// Returns system, state and moment as a file name, e.g. `venetian-80-72_45_2026-03-21T1200`, for a tile or the room.
+/// Returns a file name made from system, state, date and time, e.g. `venetian-80-72_45_2026-03-21T1200`, and the tile,
+/// if one is given.
 fn study(state: &State, tile: Option<TileKind>) -> String {
     let [system, of] = match tile {
         Some(TileKind::Btdf | TileKind::Transmittance | TileKind::Control) => {
@@ -40,7 +42,7 @@ fn study(state: &State, tile: Option<TileKind>) -> String {
     words.into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join("_")
 }
 
-/// Returns the proposed file name.
+/// Returns the proposed name of a file for the given purpose.
 pub fn file_name(state: &State, what: PathUse) -> String {
     match what {
         PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe => String::new(),
@@ -79,8 +81,8 @@ fn export_name(state: &State) -> String {
     }
 }
 
-/// Returns the proposed folder and name: the path of the scene for the scene, else the folder that was used last, else
-/// the user's documents.
+/// Returns the proposed path for writing a file: for the scene its path, otherwise a name in the folder used last, or
+/// in the user's documents folder.
 pub fn start_path(state: &State, what: PathUse) -> PathBuf {
     if let (PathUse::SaveScene, Some(path)) = (what, &state.scene_path) {
         return path.clone();

@@ -1,5 +1,6 @@
-//! Commands that are offered: one table for menus, palette, keys sheet and keyboard, with labels, keys and places. A
-//! new one is an entry here and its effect in [`super::apply`].
+//! Commands that the user can choose: one table for menus, command palette, sheet of shortcuts and keyboard, with
+//! labels, shortcuts and positions in the menus. A new command needs an entry here and its execution in
+//! [`super::apply`].
 
 use super::arrange::{self, Way};
 use super::catalogue_command::CatalogueCommand;
@@ -26,34 +27,34 @@ use crate::texts::{self, Language::English, Text, catalogue, choose, language, s
 use egui::{Event, Key, KeyboardShortcut, Modifiers};
 use std::sync::LazyLock;
 
-/// Menus, in the order of the bar.
+/// Menus, in the order of the menu bar.
 pub const MENUS: [Text; 5] = [FILE, EDIT, VIEW, COMPARE, HELP];
 
-/// Place of a command in the menus.
+/// Position of a command in the menus.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// Menu, one of [`MENUS`].
     pub menu: Text,
-    /// Order in the menu; a line separates one ten from the next.
+    /// Order in the menu; commands with different tens digits are separated by a line.
     pub rank: u8,
-    /// Name of the submenu that groups it with similar commands.
+    /// Name of the submenu that contains the command, if any.
     pub within: Option<&'static str>,
 }
 
-/// Command as it is offered.
+/// Command with its label, tooltip, shortcut and position in the menus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offer {
-    /// Command to act on.
+    /// Command that is executed.
     pub command: Command,
-    /// Menu entry, sentence case; ends with `…` if more is asked.
+    /// Label in menus and palette, in sentence case; ends with `…` if more input follows.
     pub text: String,
     /// Tooltip, one sentence.
     pub tip: &'static str,
-    /// Shortcut. Keys without Ctrl act only while nothing has the keyboard.
+    /// Keyboard shortcut, if there is one. Shortcuts without Ctrl work only while no widget has the keyboard focus.
     pub keys: Option<KeyboardShortcut>,
-    /// Place in the menus.
+    /// Position in the menus; `None` if no menu contains the command.
     pub place: Option<Place>,
-    /// Whether palette and keys sheet list it.
+    /// Whether the command palette and the sheet of shortcuts list the command.
     pub listed: bool,
 }
 
@@ -86,13 +87,13 @@ const SHIFT: Modifiers = Modifiers::SHIFT;
 // What is offered says their number.
 const _: () = assert!(TILES.len() == 8);
 
-/// Returns a word as written after a colon: English ones begin in lower case there, German ones stay unchanged.
+/// Returns a word in the spelling after a colon: English ones begin in lower case there, German ones are unchanged.
 fn behind_colon(word: impl std::fmt::Display) -> String {
     let word = word.to_string();
     if language() == English { word.to_lowercase() } else { word }
 }
 
-/// Returns the commands that arrange the tiles. Arrow keys do the same at a tile's head, see the tile area.
+/// Returns the commands that arrange the tiles, which arrow keys on a tile's head execute, too.
 fn arrangement() -> Vec<Offer> {
     use arrange::Arrange::*;
     let plain = |what, text: String, tip: Text| {
@@ -128,7 +129,7 @@ fn arrangement() -> Vec<Offer> {
     list
 }
 
-/// Returns the table, in the order of palette and keys sheet.
+/// Returns the table of all commands, in the order of command palette and sheet of shortcuts.
 fn table() -> Vec<Offer> {
     use Command::*;
     let sheet = |sheet| Command::Sheet(Some(sheet));
@@ -294,7 +295,7 @@ fn table_in(language: texts::Language) -> Vec<Offer> {
     table()
 }
 
-/// Returns all offers, in the current language.
+/// Returns the table of all commands, in the current language.
 pub fn offers() -> &'static [Offer] {
     static ENGLISH: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::English));
     static GERMAN: LazyLock<Vec<Offer>> = LazyLock::new(|| table_in(texts::Language::German));
@@ -304,12 +305,12 @@ pub fn offers() -> &'static [Offer] {
     }
 }
 
-/// Returns the offers that palette and keys sheet list.
+/// Returns the commands that the command palette and the sheet of shortcuts list.
 pub fn listed() -> impl Iterator<Item = &'static Offer> {
     offers().iter().filter(|offer| offer.listed)
 }
 
-/// Returns a shortcut as written on a keyboard: `Ctrl+Shift+Z`, `]`, `→`.
+/// Returns a shortcut as text: `Ctrl+Shift+Z`, `]`, `→`.
 pub fn key_words(keys: &KeyboardShortcut) -> String {
     let key = match keys.logical_key {
         Key::ArrowLeft => "←",
@@ -333,19 +334,19 @@ pub fn key_words(keys: &KeyboardShortcut) -> String {
     format!("{held}{key}")
 }
 
-/// Returns the offer of a command.
+/// Returns the entry of a command in the table; `None` if it has none.
 pub fn of(command: &Command) -> Option<&'static Offer> {
     offers().iter().find(|offer| offer.command == *command)
 }
 
-/// Whether a command opens something to type in.
+/// Whether a command opens a text field.
 const fn opens_field(command: &Command) -> bool {
     use Command::{Open, OpenFolder, Palette, SaveScene, Search, Sheet};
     matches!(command, Open | OpenFolder | Palette | SaveScene | Search | Sheet(Some(state::Sheet::Export)))
 }
 
-/// Returns the commands whose keys were pressed in this frame. Keys without Ctrl are left to whatever has the keyboard,
-/// for example an open list: its arrow keys do not move the clock.
+/// Returns the commands whose keys were pressed in this frame. Shortcuts without Ctrl are ignored while a widget has
+/// the keyboard focus, e.g. the arrow keys in an open list.
 pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let typing = ctx.memory(|memory| memory.focused().is_some()) || egui::Popup::is_any_open(ctx);
     // The editor of system files has a history of its own.
@@ -378,8 +379,9 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     })
 }
 
-/// Replaces a key of the row of digits by its digit if the keyboard has a sign there without Shift, as in France and
-/// Bohemia, that is not `offered`. Other keys with a digit on them stay: the number pad also moves the cursor.
+/// Replaces a key of the digit row by its digit if the keyboard layout has a sign there without Shift (e.g. in France)
+/// that is not itself a shortcut (`offered`). Other keys with digits are unchanged, since the number pad also moves the
+/// cursor.
 fn digit_by_place(event: &mut Event, offered: impl Fn(Key, Modifiers) -> bool) {
     let Event::Key { key, physical_key: Some(place), modifiers, .. } = event else { return };
     let sign = matches!(key, Key::Quote | Key::Minus | Key::Plus | Key::Exclamationmark);

@@ -1,4 +1,4 @@
-//! Starting jobs, and storing their results in the window.
+//! Starting of jobs, and storing of their results in the window.
 
 use super::command::Command;
 use super::engine::Question;
@@ -20,7 +20,7 @@ use crate::study::sky::SkyKeyError;
 use crate::texts::{Language, language, shell};
 use std::sync::Arc;
 
-/// Number of failures after which built-in products are no longer computed in advance.
+/// Number of failed computations after which built-in products are no longer computed in advance.
 const FILL_FAILURES: usize = 5;
 
 impl App {
@@ -31,7 +31,7 @@ impl App {
         self.start(Lane::Catalogue, move |_| Outcome::Opened(open()));
     }
 
-    /// Searches the catalogue again.
+    /// Starts a new search of the catalogue for the product list.
     pub(super) fn search(&mut self) {
         if let Some(shelf) = self.state.shelf() {
             let query = Query { shown: self.state.settings.recent.clone(), ..self.state.query.clone() };
@@ -39,9 +39,9 @@ impl App {
         }
     }
 
-    /// Computes data of built-in products in advance, while nothing else is computed: those of the chosen product, then
-    /// those that represent the products of the list as it is, then the rest. Once stopped, it resumes when another
-    /// product is chosen.
+    /// Starts computing data of built-in products in advance, while nothing else is computed: first those of the
+    /// selected product, then the representative states of the listed products, then the rest. After a stop it resumes
+    /// when another product is selected.
     pub(super) fn fill_catalogue(&mut self) {
         if !self.fill_due || !self.jobs.views().is_empty() {
             return;
@@ -56,7 +56,7 @@ impl App {
         self.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
     }
 
-    /// Computes the data of the state that is to be shown, if the catalogue does not hold it yet.
+    /// Starts computing the data of a selected state, which the catalogue does not contain yet.
     fn compute_state(&mut self, product: &Product, state: String) {
         let Some(shelf) = self.state.shelf() else { return };
         let label = product.states.iter().find(|one| one.key == state).map_or("", |one| one.label.as_str());
@@ -72,13 +72,13 @@ impl App {
         self.state.computing = None;
     }
 
-    /// Changes the catalogue, one change after the other.
+    /// Queues a change of the catalogue; changes are made one after the other.
     pub(super) fn store(&mut self, change: impl FnOnce(&dyn Shelf) -> Result<(), AppError> + Send + 'static) {
         self.pending_changes.push_back(Box::new(move |shelf| Outcome::Stored(change(shelf))));
         self.start_pending_change();
     }
 
-    /// Stores additions of this session: all or none.
+    /// Queues the storing of additions, given with their numbers in this session: all are stored, or none.
     pub(super) fn store_additions(&mut self, additions: Vec<(usize, Addition)>) {
         self.adding.extend(additions.iter().map(|(number, _)| *number));
         self.queue(move |shelf| {
@@ -89,7 +89,7 @@ impl App {
         });
     }
 
-    /// Reads a product that is to be selected, after all pending changes: one of them may store it.
+    /// Queues the reading of a product that is to be selected, after all pending changes, one of which may store it.
     pub(super) fn look_up(&mut self, product: String) {
         self.queue(move |shelf| Outcome::Choice(shelf.product(&product)));
     }
@@ -100,8 +100,8 @@ impl App {
         self.start_pending_change();
     }
 
-    /// Starts the next change of the catalogue, if none is running: changes must all happen, so they wait for each
-    /// other instead of replacing each other.
+    /// Starts the next queued change of the catalogue, if none is running: changes wait for each other, since none may
+    /// be replaced by a later one.
     fn start_pending_change(&mut self) {
         if self.jobs.busy(Lane::Store) {
             return;
@@ -112,7 +112,7 @@ impl App {
         }
     }
 
-    /// Stores the results of jobs. Never waits.
+    /// Stores the results of finished jobs in the window, without waiting.
     pub fn poll(&mut self) {
         // Ended, or stopped.
         self.writing &= self.jobs.busy(Lane::Export);
@@ -321,8 +321,8 @@ impl App {
         self.search();
     }
 
-    /// Takes the selection from the first catalogue aperture after a scene was opened. A scene of its own systems keeps
-    /// them, and the selection stays.
+    /// Sets the selection to the product in the first aperture from the catalogue after a scene was opened. With a
+    /// scene without products of the catalogue the selection stays.
     fn adopt_selection(&mut self) {
         if let Some(selection) = selection_of(&self.state.document.scene) {
             self.state.document.selection = selection;
@@ -331,15 +331,15 @@ impl App {
         }
     }
 
-    /// Shows a message if the room has another system than the product that the other tiles show.
+    /// Shows a message if the scene's apertures contain another system than the product that the other tiles show.
     fn report_own_system(&mut self, product: String) {
         if let Some(system) = own_system(&self.state.document.scene) {
             self.toasts.info(shell::own_system(title::system(system), product));
         }
     }
 
-    /// Selects a product at a first start, so that something is shown: a light-guiding product if there is one, else
-    /// the first. A scene of its own systems keeps them.
+    /// Selects a product at the first start: a light-guiding product if there is one, else the first. A scene with
+    /// other systems is not changed.
     fn select_something(&mut self) {
         let document = &self.state.document;
         if !document.selection.product.is_empty() || self.state.found.entries.is_empty() {
@@ -363,7 +363,7 @@ impl App {
         self.undoer = fresh_undoer(&self.state.document);
     }
 
-    /// Starts the year of shading control again when something that it depends on has changed.
+    /// Starts the computation of the annual shading control again if its input has changed.
     pub(super) fn ask_year(&mut self) {
         let state = &self.state;
         let Some(product) = state.product.clone() else { return };
@@ -382,8 +382,8 @@ impl App {
         }
     }
 
-    /// Starts the search for the peaks of the LID that is shown, once it no longer changes: a table of all directions
-    /// takes longer than the LID itself, and during dragging the next LID would come before it.
+    /// Starts the search for the peak intensities of the current LID, once it no longer changes: this takes longer than
+    /// the LID itself, and while dragging the next LID would follow before it is finished.
     pub(super) fn ask_peaks(&mut self) {
         let lid = &self.results.lid;
         let Some(figures) = lid.value.as_ref().filter(|_| !lid.stale) else { return };
@@ -402,7 +402,7 @@ impl App {
         });
     }
 
-    /// Runs the refinement series on the current scene and shows its sheet.
+    /// Starts the runs of the current scene with rising effort (error against computing time) and opens their sheet.
     pub(super) fn measure_accuracy(&mut self) {
         self.state.sheet = Some(Sheet::Accuracy);
         let Some(shelf) = self.state.shelf() else {
@@ -415,14 +415,14 @@ impl App {
         self.start(Lane::Accuracy, move |job| Outcome::Accuracy(engine.accuracy(&question, job)));
     }
 
-    /// Computes the effect of every obstruction of the current scene.
+    /// Starts computing the effect of every obstruction of the current scene on the illuminance of the apertures.
     pub(super) fn weigh_obstructions(&mut self) {
         let (scene, base) = (self.state.document.scene.clone(), self.state.base());
         self.results.obstructions.error = None;
         self.start(Lane::Obstructions, move |job| Outcome::Obstructions(obstructions(scene, &base, job)));
     }
 
-    /// Starts reading product, state and dataset of the selection, and sky and sun.
+    /// Starts reading product, state and dataset of the selection, and computing sky and sun.
     fn ask_scene(&mut self) {
         let Some(shelf) = self.state.shelf() else { return };
         let document = &self.state.document;
@@ -435,15 +435,15 @@ impl App {
         });
     }
 
-    /// Returns the language in which the current document was last requested; `None` if another document was, or
-    /// nothing.
+    /// Returns the language in which results of the current document were last requested; `None` if those of another
+    /// document were, or none.
     pub(super) fn asked_last(&self) -> Option<Language> {
         let (asked, language) = self.asked.as_ref()?;
         asked.asks_the_same(&self.state.document).then_some(*language)
     }
 
-    /// Starts everything that the document's change since the last call affects; results in another language are
-    /// computed again.
+    /// Starts all computations that a change of the document since the last call affects, and those of results with
+    /// texts in another language.
     pub fn refresh(&mut self) {
         let document = &self.state.document;
         let asked = self.asked_last();

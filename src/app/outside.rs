@@ -1,5 +1,5 @@
-//! Obstructions that the window adds to a scene: overhang, fin, reveal, balcony, neighbour, with sizes that follow the
-//! first aperture.
+//! Obstructions that the window can add to a scene (overhang, fin, reveal, balcony, neighbour), with sizes derived from
+//! the first aperture.
 
 use crate::compute::estimate::Estimate;
 use crate::study::outside::MOST_BOXES;
@@ -8,8 +8,8 @@ use crate::study::scene_file::{
 };
 use crate::texts::{Text, scene as texts};
 
-/// Scene, and the effect of every box and of the building on its apertures' illuminance, `None` if it is dark; or the
-/// reason why there is none.
+/// Effects of obstructions: the scene, and for every box and the building the relative effect on the illuminance of its
+/// apertures (`None` if it is dark), or the reason why they cannot be computed.
 pub type ObstructionEffects = (SceneFile, Result<Option<Vec<Estimate>>, String>);
 
 /// Kind of obstruction.
@@ -19,11 +19,11 @@ pub enum Kind {
     Overhang,
     /// Vertical slab beside the aperture.
     Fin,
-    /// Four sides round the aperture, which is set back between them.
+    /// Reveal: four sides round the aperture, which is set back between them.
     Reveal,
-    /// Slab below the room, with a parapet.
+    /// Balcony: slab at floor level in front of the façade, with a parapet.
     Balcony,
-    /// Building across the street.
+    /// Neighbouring building across the street.
     Neighbour,
 }
 
@@ -31,7 +31,7 @@ impl Kind {
     /// All kinds, nearest first.
     pub const ALL: [Self; 5] = [Self::Overhang, Self::Fin, Self::Reveal, Self::Balcony, Self::Neighbour];
 
-    /// Returns the label.
+    /// Returns the label of the kind of obstruction.
     pub const fn word(self) -> Text {
         match self {
             Self::Overhang => texts::OVERHANG,
@@ -42,7 +42,7 @@ impl Kind {
         }
     }
 
-    /// Returns the label of the command that adds it.
+    /// Returns the label of the command that adds an obstruction of this kind.
     pub const fn order(self) -> Text {
         match self {
             Self::Overhang => texts::ADD_OVERHANG,
@@ -54,23 +54,24 @@ impl Kind {
     }
 }
 
-/// Command about the boxes outside, an undo step of its own. Numbers count from 0; `None` is the last one.
+/// Command about the boxes of obstructions, each a separate undo step. Boxes are numbered from 0; `None` means the last
+/// one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Act {
     /// Add an obstruction.
     Add(Kind),
-    /// Duplicate a box, beside it.
+    /// Duplicate a box, with the copy beside it.
     Duplicate(Option<usize>),
     /// Remove a box.
     Remove(Option<usize>),
 }
 
-/// Reason why nothing was done.
+/// Reason why a command about obstructions was not executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refused {
-    /// Missing box.
+    /// No box to duplicate or remove.
     NothingThere,
-    /// Maximum number of boxes in a scene reached.
+    /// Maximum number of boxes in a scene exceeded.
     TooMany,
 }
 
@@ -91,13 +92,13 @@ const THICK: f64 = 0.15;
 /// Length by which an overhang or a balcony extends beyond the aperture's sides. \[m\]
 const BEYOND: f64 = 0.5;
 
-/// Rounds to the millimetre, so that the value shown is the value used. \[m\]
+/// Returns a length rounded to the millimetre, so that the displayed value is the one in use. \[m\]
 pub fn exact(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0 + 0.0
 }
 
-/// Returns the rectangle of the façade that obstructions follow: the first aperture there, or else the whole wall.
-/// \[m\]
+/// Returns the rectangle of the façade from which sizes of obstructions are derived, as from and to along x and z: that
+/// of its first aperture, or else the whole wall. \[m\]
 fn window(scene: &SceneFile) -> [[f64; 2]; 2] {
     let first = scene.aperture.iter().find(|one| one.surface == SurfaceKey::Facade);
     first.map_or([[0.0, scene.room.width], [0.0, scene.room.height]], sides)
@@ -112,7 +113,7 @@ fn solid(x: [f64; 2], y: [f64; 2], z: [f64; 2]) -> BoxKeys {
     BoxKeys { from: end(0), to: end(1), turn: 0.0 }
 }
 
-/// Returns the boxes of one kind, each with its name.
+/// Returns the boxes of an obstruction of one kind for a scene, each with its name.
 fn boxes(kind: Kind, scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     let [[left, right], [sill, head]] = window(scene);
     let wide = [left - BEYOND, right + BEYOND];
@@ -128,7 +129,7 @@ fn boxes(kind: Kind, scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     names.into_iter().zip(solids).collect()
 }
 
-/// Returns the four boxes round the first aperture, wherever it is.
+/// Returns the four boxes of a reveal round the first aperture, in façade or roof.
 fn reveal(scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     const DEEP: f64 = 0.25;
     let first = scene.aperture.first();
@@ -143,8 +144,8 @@ fn reveal(scene: &SceneFile) -> Vec<(Text, BoxKeys)> {
     names.into_iter().zip(across.into_iter().zip(along).map(place)).collect()
 }
 
-/// Returns the place for another box of a kind beside an existing one: overhangs higher, fins further to the left,
-/// others further to the right.
+/// Returns another box of a kind beside an existing one: overhangs higher, fins further to the left, others further to
+/// the right.
 fn beside(kind: Kind, solid: &BoxKeys, scene: &SceneFile) -> BoxKeys {
     let [[left, _], _] = window(scene);
     let size = [0, 1, 2].map(|k| solid.to[k] - solid.from[k]);
@@ -157,9 +158,9 @@ fn beside(kind: Kind, solid: &BoxKeys, scene: &SceneFile) -> BoxKeys {
     }
 }
 
-/// Returns a building round the room: flush with the façade or the roof that has apertures, down to the ground.
+/// Returns the building round the room: flush with the façade or roof that has apertures, down to the ground.
 pub fn building(scene: &SceneFile) -> BuildingKeys {
-    /// Length by which the building extends beside, behind and above the room. \[m\]
+    /// Length by which the building extends beyond the room at the sides, behind and above. \[m\]
     const ON: f64 = 6.0;
     let room = &scene.room;
     let on_roof = scene.aperture.iter().any(|one| one.surface == SurfaceKey::Roof);
@@ -171,7 +172,7 @@ pub fn building(scene: &SceneFile) -> BuildingKeys {
     }
 }
 
-/// Returns a box moved along an axis by `way`. \[m\]
+/// Returns a box moved along an axis (0 x, 1 y, 2 z) by the distance `way`. \[m\]
 pub fn moved(solid: &BoxKeys, axis: usize, way: f64) -> BoxKeys {
     let mut new = *solid;
     new.from[axis] = exact(new.from[axis] + way);
@@ -184,7 +185,7 @@ pub fn name(number: usize, keys: &OutsideKeys) -> String {
     if keys.name.trim().is_empty() { texts::box_number(number + 1) } else { keys.name.trim().to_owned() }
 }
 
-/// Applies a command to the boxes of a scene.
+/// Applies a command to the boxes of obstructions of a scene.
 ///
 /// # Errors
 /// Returns [`Refused`] if nothing was done; the scene is then unchanged.

@@ -1,4 +1,5 @@
-//! Rows of the palette for its text: commands, states of the selected product, products of the catalogue, best first.
+//! Rows of the command palette that match its text: commands, states of the selected product, products of the
+//! catalogue, the best match first.
 
 use super::command::Command;
 use super::control::state_words;
@@ -11,27 +12,28 @@ use super::window::App;
 use super::work::Outcome;
 use crate::texts::shell;
 
-/// Maximum number of rows shown.
+/// Maximum number of rows that the command palette shows.
 pub const ROWS: usize = 12;
 
-/// Maximum number of products searched.
+/// Maximum number of products that the command palette takes from a search of the catalogue.
 const PRODUCTS: usize = 50;
 
-/// Row of the palette.
+/// Row of the command palette.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Command of the row.
+    /// Command that the row executes.
     pub command: Command,
     /// Label of the row.
     pub text: String,
-    /// Additional sentence; may be empty.
+    /// Additional sentence about the command or product; may be empty.
     pub tip: String,
-    /// Shortcut as text, if there is one.
+    /// Keyboard shortcut as text, if the command has one.
     pub keys: Option<String>,
 }
 
-/// Returns how badly a name (or the text about it) matches some words, all in lower case: the lower the better; `None`
-/// if a word is missing. A whole word ranks before the beginning of a word, that before a part, and the tip comes last.
+/// Returns the misfit of a name (and the text about it) to searched words, which are in lower case: a number that is
+/// lower for a better match; `None` if a word is missing. Whole words of the name count as the best match, then
+/// beginnings of words, then parts of words, and last words in the text about the name.
 fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
     let name = name.to_lowercase();
     let about = about.to_lowercase();
@@ -52,8 +54,8 @@ fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
     sum.map(|sum| 2 * sum + usize::from(!begins))
 }
 
-/// Returns the rows of the palette, best first; with equal match commands come before states and states before
-/// products.
+/// Returns the rows of the command palette that match a text, the best match first; in case of equal matches, commands
+/// before states and states before products.
 pub fn rows(state: &State, text: &str) -> Vec<Row> {
     let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
     // The palette itself is left out: it would only close.
@@ -99,8 +101,8 @@ pub fn rows(state: &State, text: &str) -> Vec<Row> {
     list.into_iter().map(|(_, row)| row).collect()
 }
 
-/// Returns the products found in the catalogue, if the search took the words as typed: results of a corrected search
-/// are left out.
+/// Returns the products that a search of the catalogue found; none if the search had replaced the words typed by
+/// similar ones.
 fn hits(found: Found) -> Vec<Hit> {
     if !found.read_as.is_empty() {
         return Vec::new();
@@ -114,7 +116,7 @@ fn hits(found: Found) -> Vec<Hit> {
 }
 
 impl App {
-    /// Opens or closes the palette.
+    /// Opens or closes the command palette.
     pub(super) fn toggle_palette(&mut self) {
         let state = &mut self.state;
         state.palette = if state.palette.is_some() { None } else { Some(String::new()) };
@@ -123,7 +125,7 @@ impl App {
         self.jobs.cancel(Lane::Palette);
     }
 
-    /// Sets the text of the palette, and searches the catalogue for it.
+    /// Sets the text of the command palette, and starts searching the catalogue for it.
     pub(super) fn edit_palette(&mut self, text: String) {
         let words = text.trim().to_owned();
         self.state.palette = Some(text);
@@ -137,7 +139,8 @@ impl App {
         }
     }
 
-    /// Stores the products found for the palette.
+    /// Takes over the products that the catalogue search found for the command palette, or reports its error; a chosen
+    /// row stays chosen.
     pub(super) fn take_hits(&mut self, found: Result<Found, super::error::AppError>) {
         match found {
             Ok(found) => {

@@ -1,4 +1,4 @@
-//! Starting pictures of products for the gallery.
+//! Jobs that make the pictures of products for the gallery.
 
 use super::gallery::{Made, picture};
 use super::jobs::Lane;
@@ -6,7 +6,7 @@ use super::window::App;
 use super::work::Outcome;
 
 impl App {
-    /// Starts making the missing pictures of the visible cards.
+    /// Starts a job that makes the missing pictures of the visible cards.
     pub(super) fn ask_pictures(&mut self) {
         // Cards ask in every frame: what is hidden meanwhile is not made, and what is under way not twice.
         let wanted = self.gallery.wanted();
@@ -23,6 +23,7 @@ impl App {
         });
     }
 
+    /// Takes over pictures that a job has made.
     pub(super) fn take_pictures(&mut self, made: Vec<Made>) {
         let ctx = self.ctx.clone();
         self.gallery.take(&ctx, made);

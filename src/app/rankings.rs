@@ -1,16 +1,16 @@
-//! Rankings that the window has, shown or not.
+//! Rankings of the window, including those not shown.
 
 use super::choose::{Board, Figures};
 use crate::study::rank::Store;
 use std::sync::Arc;
 
-/// State of the rankings beside the one that is shown.
+/// State of all rankings of the window, except the results shown.
 #[derive(Default)]
 pub(super) struct Choosing {
-    /// Board of the current or last ranking, and the number of its results that were read.
+    /// Shared results of the running or last ranking, and the number of them that the window has read.
     pub board: Option<(Arc<Board>, u64)>,
-    /// Results for other inputs.
+    /// Results of earlier rankings for other inputs, to be shown again if their input returns.
     pub kept: Vec<Arc<Figures>>,
-    /// Store of products whose years are computed.
+    /// Store of the computed annual simulations of products.
     pub store: Arc<Store>,
 }

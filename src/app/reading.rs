@@ -1,4 +1,4 @@
-//! Reading what was opened or dropped: files, folders and archives, each by its type.
+//! Reading of files, folders and archives that were opened or dropped into the window, each by its type.
 
 use super::disk::read_bytes;
 use super::error::AppError;
@@ -17,15 +17,15 @@ use std::sync::Arc;
 
 /// Request to read files.
 pub struct Asked {
-    /// Files, folders and archives.
+    /// Paths of the files, folders and archives to read.
     pub paths: Vec<PathBuf>,
     /// Grouping of the files into products.
     pub grouping: Grouping,
     /// Function that reads a dataset file.
     pub read: ReadDataset,
-    /// Catalogue that may hold the same content already; `None` before it is open.
+    /// Catalogue in which products with equal data are looked up; `None` before it is open.
     pub shelf: Option<Arc<dyn Shelf>>,
-    /// Texts and repairs kept for the same files.
+    /// Texts and repairs stored for an earlier import of these files, to be applied again.
     pub kept: Option<KeptImport>,
 }
 
@@ -35,7 +35,7 @@ fn text_of(path: &Path, what: &'static str) -> Result<String, AppError> {
     Ok(text.into_owned())
 }
 
-/// Reads a file that is opened by itself.
+/// Reads a file that is opened directly instead of being imported: a scene, system, weather file or control curve.
 fn read_single(single: Single, path: &Path) -> Outcome {
     let about = |error: AppError| error.about(path.display());
     match single {
@@ -56,8 +56,8 @@ fn read_single(single: Single, path: &Path) -> Outcome {
     }
 }
 
-/// Reads files: of scenes, systems and control curves the first that is named; datasets and packages as products to be
-/// added; other files are reported.
+/// Reads files for the window: datasets and packages become products of an import; of scenes, systems and control
+/// curves the first of each is opened; other files are reported.
 pub fn read_files(asked: &Asked, progress: &dyn Progress) -> Outcome {
     let taken = import_files(&asked.paths, asked.read, progress);
     // Restored with a session, files opened by themselves are open already: reading them again would undo later

@@ -1,4 +1,4 @@
-//! Session of the window: restored at the start, kept while the window lives, closed at the end.
+//! Session of the window: restored at the start, stored continuously while the window is open, ended with the window.
 
 use super::autosave::{Autosave, Found};
 use super::clock;
@@ -8,7 +8,7 @@ use crate::texts::shell;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Maximum time that a closing window waits for what is still being stored.
+/// Maximum time that a closing window waits for data that are still being stored.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// Returns the folder of the user's sessions: beside the catalogue, in the user's data folder.
@@ -17,8 +17,9 @@ pub fn sessions_folder() -> Option<PathBuf> {
 }
 
 impl App {
-    /// Keeps the session in a folder from now on, and restores what is there. `take_up`: also the session of a window
-    /// that did not close, with a message.
+    /// Starts storing the session in a folder, and restores the session found there. `take_up`: whether to restore also
+    /// the session of a window that was not closed properly, with a message. `folder`: `None` if the user has no such
+    /// folder; then a warning is shown.
     pub fn begin_session(&mut self, folder: Option<&Path>, take_up: bool) {
         let Some(folder) = folder else {
             let _speaking = self.speak();
@@ -37,6 +38,7 @@ impl App {
         }
     }
 
+    /// Restores a session found in a folder, and reports problems with it.
     fn take_up(&mut self, found: Found, folder: &Path) {
         let put = found.kept.as_ref().map(|kept| kept.put_into(&mut self.state));
         // In the language that was kept.
@@ -65,7 +67,7 @@ impl App {
         }
     }
 
-    /// Passes changes of the session to its writer. Never waits.
+    /// Passes the current session to the thread that stores it, if it has changed. Never waits.
     pub(super) fn keep_session(&mut self) {
         let Some(keeper) = &mut self.autosave else { return };
         keeper.keep(&self.state);
@@ -74,7 +76,8 @@ impl App {
         }
     }
 
-    /// Ends the window in order: what is being stored and written is completed, the session is left for the next start.
+    /// Ends the window: waits until data being stored or written are complete, and leaves the session for the next
+    /// start.
     pub fn close(&mut self) {
         let start = Instant::now();
         let storing = |app: &Self| app.jobs.busy(Lane::Store) || !app.pending_changes.is_empty() || app.writing;

@@ -1,6 +1,6 @@
-//! Hebrew and Arabic in the window. egui turns and joins the letters of a word, and sets words from left to right. This
-//! module sets what a frame has drawn again in the order of reading, so that no label, list or picture has to care for
-//! it.
+//! Hebrew and Arabic in the window. egui reverses and joins the letters within a word correctly, but arranges words
+//! from left to right. This module rearranges the texts that a frame has drawn into reading order, so that no label,
+//! list or picture has to do so.
 
 use crate::texts::{has_right_to_left, visual_parts};
 use egui::epaint::text::{ByteIndex, LayoutJob, LayoutSection, TextWrapping};
@@ -10,7 +10,8 @@ use std::ops::Range;
 use std::sync::Arc;
 use unicode_bidi_mirroring::get_mirrored;
 
-/// Sets the texts that a frame has drawn in the order of reading. Called at the end of the frame.
+/// Rearranges the texts with Hebrew or Arabic letters that the current frame has drawn into reading order. Called at
+/// the end of the frame.
 pub fn reorder(ui: &mut Ui) {
     let ctx = ui.ctx();
     let mut layers: Vec<LayerId> = ctx.memory(|memory| memory.layer_ids().collect());
@@ -51,11 +52,11 @@ fn set_in_order(ctx: &Context, shape: &mut Shape) {
     }
 }
 
-/// Part of a text on a line, and whether the text ends there with "…".
+/// Line of a text: its byte range in the text, and whether the text is cut there with "…".
 type Line = (Range<usize>, bool);
 
-/// Returns a text with every line in the order of reading; a wrapped or cut text is wrapped or cut again, in the order
-/// of its letters.
+/// Returns a laid-out text with every line in reading order; a text that was wrapped or cut is wrapped or cut again,
+/// starting from its first letter in reading order.
 fn in_order(galley: &Galley, layout: &dyn Fn(LayoutJob) -> Arc<Galley>) -> Arc<Galley> {
     let job = &*galley.job;
     let wraps = galley.elided || galley.rows.len() > job.text.split('\n').count();
@@ -85,7 +86,7 @@ fn in_order(galley: &Galley, layout: &dyn Fn(LayoutJob) -> Arc<Galley>) -> Arc<G
     layout(set(job, &lines))
 }
 
-/// Returns the job that sets lines of another job, each in the order of reading.
+/// Returns the layout job for some lines of another job, each in reading order.
 fn set(job: &LayoutJob, lines: &[Line]) -> LayoutJob {
     let mut set = LayoutJob {
         text: String::new(),

@@ -1,11 +1,12 @@
-//! Words as parts of file names, in characters that every system accepts.
+//! Parts of file names from arbitrary text, in characters that every operating system accepts.
 
 use crate::texts::ascii_letters;
 
-/// Maximum length of a part of a name made from words. \[characters\]
+/// Maximum length of a part of a file name made from text. \[characters\]
 const LONGEST: usize = 80;
 
-/// Returns a word in ASCII letters, digits, point and hyphen; runs of other characters become one hyphen.
+/// Returns text as part of a file name, with ASCII letters, digits, points and hyphens only; a run of other characters
+/// becomes one hyphen.
 pub fn safe(word: &str) -> String {
     let mut text = String::new();
     for c in ascii_letters(word).chars() {

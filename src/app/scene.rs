@@ -1,4 +1,4 @@
-//! First scene of the window, and functions that fill and read scenes.
+//! First scene of the window, and functions that set and read systems and control rules of a scene.
 
 use super::moment;
 use crate::study::control::year::CONTROLLED;
@@ -6,20 +6,21 @@ pub use crate::study::example::first_scene;
 use crate::study::scene_file::{ControlKeys, IlluminanceKey, SceneFile, SystemKeys};
 use crate::study::sky::illuminances;
 
-/// Selected product and state of the window.
+/// Product and state that are selected in the window.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Selection {
-    /// Key of the product.
+    /// Key of the selected product in the catalogue.
     pub product: String,
-    /// Key of the state; empty for the representative state; `controlled` if the scene's control picks it.
+    /// Key of the selected state; empty for the representative state; `controlled` if the control rule of the scene
+    /// chooses it.
     pub state: String,
 }
 
-/// Returns the scene that the last session left; `None` if the text is not a scene.
+/// Returns the scene stored by the last session, given as its text; `None` if the text is not a scene.
 ///
-/// Versions that did not know `sky.illuminance` followed the sun in every session, whatever was written; since then the
-/// key is always written. So a scene without it is from such a version and continues to follow the sun, if its sun
-/// position is known.
+/// Program versions without the key `sky.illuminance` computed the illuminances from the sun's position in every
+/// session, whatever the scene said; later versions always write the key. A scene without it is therefore from such a
+/// version, and its illuminances are still computed from the sun's position, if this is known.
 pub fn kept_scene(text: &str) -> Option<SceneFile> {
     let mut scene = SceneFile::parse(text).ok()?;
     let table: toml::Table = text.parse().ok()?;
@@ -30,7 +31,8 @@ pub fn kept_scene(text: &str) -> Option<SceneFile> {
     Some(scene)
 }
 
-/// Lets the illuminances follow the sun, or makes them manual, starting from their current values.
+/// Sets the source of the sky's illuminances: computed from the position of the sun, or stated, starting from their
+/// current values.
 pub fn follow(scene: &mut SceneFile, by: IlluminanceKey) {
     let now = illuminances(&scene.sky, &scene.site).ok().flatten();
     let sky = &mut scene.sky;
@@ -45,7 +47,7 @@ pub fn follow(scene: &mut SceneFile, by: IlluminanceKey) {
     sky.illuminance = by;
 }
 
-/// Returns the selection in a scene's first aperture that is filled from the catalogue.
+/// Returns product and state of the first aperture of a scene with a product of the catalogue; `None` if there is none.
 pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
     scene.aperture.iter().find_map(|aperture| match &aperture.system {
         SystemKeys::Catalogue { key, state } if !key.is_empty() => {
@@ -55,14 +57,16 @@ pub fn selection_of(scene: &SceneFile) -> Option<Selection> {
     })
 }
 
-/// Returns the system of the first aperture if no aperture is filled from the catalogue: an ideal system or a file.
+/// Returns the system of the first aperture (an ideal system or a file) if no aperture has a product of the catalogue;
+/// otherwise `None`.
 pub fn own_system(scene: &SceneFile) -> Option<&SystemKeys> {
     let from_catalogue = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { .. });
     let first = scene.aperture.first().map(|aperture| &aperture.system);
     first.filter(|_| !scene.aperture.iter().any(|aperture| from_catalogue(&aperture.system)))
 }
 
-/// Puts a product into every aperture that is filled from the catalogue; into the first one if none is.
+/// Puts a product into every aperture that has a product of the catalogue, or into the first one if none has. Control
+/// rules are removed unless the state is controlled.
 pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     let state = (!selection.state.is_empty()).then(|| selection.state.clone());
     if selection.state != CONTROLLED {
@@ -81,7 +85,8 @@ pub fn fill(scene: &mut SceneFile, selection: &Selection) {
     }
 }
 
-/// Sets the control rule of one aperture, or of the whole scene, which then has no other.
+/// Sets the control rule of one aperture, by its index; for `None` that of the whole scene, and removes those of its
+/// apertures.
 pub fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<ControlKeys>) {
     match aperture.and_then(|index| scene.aperture.get_mut(index)) {
         Some(aperture) => aperture.control = keys,
@@ -92,7 +97,8 @@ pub fn set_rule(scene: &mut SceneFile, aperture: Option<usize>, keys: Option<Con
     }
 }
 
-/// Returns the control rule of an aperture: its own, else the scene's.
+/// Returns the control rule that applies to an aperture, by its index: the one set for the aperture, else that of the
+/// scene.
 pub fn rule(scene: &SceneFile, aperture: usize) -> Option<&ControlKeys> {
     scene.aperture.get(aperture).and_then(|aperture| aperture.control.as_ref()).or(scene.control.as_ref())
 }

@@ -1,4 +1,5 @@
-//! Session of a window: what is open, as kept on disk while the window lives, and restored at the next start.
+//! Session of a window: scene, selection, import and settings as stored on disk while the window is open, and restored
+//! at the next start.
 
 use super::import::KeptImport;
 use super::scene::Selection;
@@ -9,29 +10,29 @@ use crate::study::scene_file::SceneFile;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Version of the layout of a kept session. A newer one is left alone.
+/// Version of the file layout of a stored session. Sessions of a newer version are not read.
 const VERSION: u32 = 1;
 
-/// Internal error that ended the program with this session open.
+/// Internal error that ended the program while this session was open.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct KeptFault {
-    /// Number of times in a row, each soon after the session was restored.
+    /// Number of consecutive times that the program ended so, each soon after the session had been restored.
     pub times: u32,
-    /// Path of the report on the last one.
+    /// Path of the report on the last of these errors.
     pub report: Option<PathBuf>,
 }
 
-/// System file that is being typed.
+/// System file that is being typed in the editor of the virtual goniophotometer.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct KeptSystem {
     /// Text of the system file.
     pub text: String,
-    /// Folder that relative names in the text start from.
+    /// Folder to which file names in the text are relative.
     pub base: PathBuf,
 }
 
-/// Snapshot of what is open in a window.
+/// Snapshot of the session of a window.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Snapshot {
     scene: SceneText,
@@ -45,11 +46,11 @@ pub struct Snapshot {
     settings: Settings,
 }
 
-/// Scene that is converted to text when it is written.
+/// Scene of a snapshot, which is converted to text only when it is written.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct SceneText(Option<Box<SceneFile>>);
 
-/// Sheets that are opened again, with their keys.
+/// Side panels that are opened again with a session, with their keys in the file.
 const SHEETS: [(Sheet, &str); 2] = [(Sheet::Import, "import"), (Sheet::Goniophotometer, "goniophotometer")];
 
 fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
@@ -57,7 +58,7 @@ fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
 }
 
 impl Snapshot {
-    /// Creates a snapshot of a window as it is now.
+    /// Creates a snapshot of the current state of a window.
     pub fn of(state: &State) -> Self {
         let document = &state.document;
         Self {
@@ -74,7 +75,8 @@ impl Snapshot {
         }
     }
 
-    /// Whether the snapshot equals what the window shows now. Called in every frame: compares without copying.
+    /// Whether the snapshot equals the current state of the window. Called in every frame, so it compares without
+    /// copying.
     pub fn is_of(&self, state: &State) -> bool {
         let document = &state.document;
         self.scene.0.as_deref() == Some(&document.scene)
@@ -93,7 +95,7 @@ impl Snapshot {
             && self.settings == state.settings
     }
 
-    /// Returns the session as it is written, with the time `at`.
+    /// Returns the session as it is written to disk, with the time of writing `at`.
     pub fn kept(&self, at: String) -> Kept {
         Kept {
             version: VERSION,
@@ -117,11 +119,11 @@ impl Snapshot {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Kept {
-    /// Version of the layout.
+    /// Version of the file layout.
     pub version: u32,
-    /// Time of writing, UTC.
+    /// Time of writing, in UTC, as text.
     pub at: String,
-    /// Scene in TOML.
+    /// Text of the scene in TOML.
     pub scene: String,
     /// Key of the selected product.
     pub product: String,
@@ -131,22 +133,22 @@ pub struct Kept {
     pub scene_path: Option<PathBuf>,
     /// Title of the tile that fills the tile area.
     pub maximised: Option<String>,
-    /// Import that is not stored yet.
+    /// Open import, whose products are not yet in the catalogue.
     pub import: Option<KeptImport>,
     /// Drafts of imports.
     pub drafts: Vec<KeptImport>,
-    /// System file that is being typed.
+    /// System file that is being typed in the editor of the virtual goniophotometer.
     pub system: KeptSystem,
-    /// Key of the sheet that was open.
+    /// Key of the side panel that was open.
     pub sheet: Option<String>,
-    /// Settings: theme, panels, folder.
+    /// Settings of the window, such as theme, panels and folder.
     pub settings: Settings,
-    /// Internal error that ended the program, if there was one.
+    /// Internal error that ended the program while the session was open, if there was one.
     pub fault: Option<KeptFault>,
 }
 
 impl Kept {
-    /// Reads a stored session.
+    /// Reads a stored session from the bytes of its file.
     ///
     /// # Errors
     /// Returns an error if the bytes are not a session or a newer program has written it.
@@ -158,10 +160,11 @@ impl Kept {
         }
     }
 
-    /// Restores the session in a new window. The import comes back when its files are read again.
+    /// Restores the session in the state of a new window. The import is restored later, when its files have been read
+    /// again.
     ///
     /// # Errors
-    /// Returns the message of the scene if it cannot be read; everything else is restored all the same.
+    /// Returns a message if the scene cannot be read; everything else is restored nevertheless.
     pub fn put_into(&self, state: &mut State) -> Result<(), String> {
         state.settings = self.settings.clone();
         state.drafts.clone_from(&self.drafts);

@@ -1,4 +1,4 @@
-//! Settings that are kept from one start to the next, beside the session.
+//! Settings of the window that are stored between starts of the program, as a part of the session.
 
 use super::export_choices::Choices;
 use super::language::LanguageChoice;
@@ -8,7 +8,7 @@ use crate::study::rank::Look as Choosing;
 use crate::study::year::Look;
 use std::path::PathBuf;
 
-/// Settings that are kept from one start to the next.
+/// Settings of the window that are stored between starts of the program.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -20,28 +20,28 @@ pub struct Settings {
     pub catalogue_open: bool,
     /// Whether the scene panel is open.
     pub scene_open: bool,
-    /// Scene in TOML, as older programs kept it here; now it is in the session.
+    /// Text of the last scene in TOML, in settings of older program versions; now the session contains it.
     pub last_scene: Option<String>,
-    /// Folder that was written to or read from last.
+    /// Folder from which a file was last read or to which one was last written.
     pub folder: Option<PathBuf>,
-    /// Choices of the last export.
+    /// Content, format and options chosen for the last export.
     #[serde(rename = "hand_on")]
     pub export: Choices,
-    /// Arrangement of the tiles; `None`: as at a first start.
+    /// Arrangement of the tiles as text; `None` for the arrangement of a first start.
     pub layout: Option<String>,
-    /// Display settings of the room.
+    /// Display settings of the room tile.
     pub room: RoomLook,
-    /// Display settings of the annual simulation.
+    /// Display settings of the tile of the annual simulation.
     pub year: Look,
-    /// Display settings of the ranking.
+    /// Display settings of the ranking tile.
     pub choose: Choosing,
-    /// Text size relative to that of the desktop.
+    /// Text size as a factor on that of the desktop.
     pub text_size: f32,
-    /// Number of finished steps of the tour.
+    /// Number of steps of the tour that the user has finished.
     pub tour: usize,
-    /// Whether products are shown as a gallery of pictures.
+    /// Whether the catalogue shows products as a gallery of pictures instead of a list.
     pub gallery: bool,
-    /// Keys of the products that were shown last, newest first.
+    /// Keys of the recently selected products, newest first.
     pub recent: Vec<String>,
 }
 

@@ -1,4 +1,5 @@
-//! Systems of the window's scenes: files and closed forms from the study's library, products from the catalogue.
+//! Library of the systems in the window's scenes: files and closed forms (ideal systems) from the library of
+//! [`crate::study`], products from the catalogue.
 
 use super::error::AppError;
 use super::shelf::Shelf;
@@ -12,13 +13,13 @@ use crate::study::{Library, StudyError, System, SystemLibrary};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Library of files and closed forms from the study, and of products from the catalogue.
+/// Library of systems: files and closed forms (ideal systems), and products of the catalogue.
 pub struct WindowLibrary<'a> {
-    /// Library of files and closed forms.
+    /// Library of files and closed forms (ideal systems).
     pub files: &'a Library,
-    /// Catalogue with the products.
+    /// Catalogue of the products.
     pub shelf: &'a dyn Shelf,
-    /// Progress of data that have to be computed first.
+    /// Receiver of the progress of products' data that have to be computed first.
     pub progress: &'a dyn Progress,
 }
 
@@ -58,7 +59,7 @@ impl SystemLibrary for WindowLibrary<'_> {
 }
 
 impl WindowLibrary<'_> {
-    /// Returns a product by its key.
+    /// Returns all information about a product, given by its key.
     ///
     /// # Errors
     /// Returns an error if the catalogue does not have the product.

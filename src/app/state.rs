@@ -1,4 +1,5 @@
-//! State of the window: the document that undo covers, settings that are kept, and what is only shown.
+//! State of the window: the document, which undo covers; settings, which are stored; results and display states, which
+//! are neither.
 
 use super::changes::{Change, Editing};
 use super::choose::{Figures, Pace};
@@ -36,50 +37,52 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Tile of the tile area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Tile {
-    /// Key of the tile in files and settings.
+    /// Key of the tile in files and settings; not translated.
     pub title: &'static str,
-    /// Name of the tile, translated.
+    /// Name of the tile in the languages of the window.
     pub name: Text,
-    /// Help text: one sentence and its source.
+    /// Help text of the tile: one sentence on its content and the source of the definitions.
     pub help: Text,
 }
 
-/// Part of the state that undo and redo cover.
+/// Part of the window's state that undo and redo cover.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Document {
     /// Selected product and state.
     pub selection: Selection,
-    /// Scene: place, time, sky, room, sensor points.
+    /// Scene: site, date and time, sky, obstructions, room, apertures, sensor points.
     pub scene: SceneFile,
-    /// Numbers of the additions that are in the catalogue now; see [`State::additions`].
+    /// Indices of the additions of this session that are currently in the catalogue; see [`State::additions`].
     pub additions: Vec<usize>,
-    /// Numbers of the changes to its products that are in effect; see [`State::changes`].
+    /// Indices of the changes of this session to products that are in effect; see [`State::changes`].
     pub changes: Vec<usize>,
-    /// Numbers of those changes that affect no figure: stars, collections, subscriptions.
+    /// Indices of the changes in effect that affect no result: favourites, collections, subscriptions; see
+    /// [`State::changes`].
     pub marks: Vec<usize>,
-    /// Numbers of the imports that are discarded now; see [`State::discarded`].
+    /// Indices of the imports that are currently discarded; see [`State::discarded`].
     pub discarded: Vec<usize>,
-    /// Numbers of the arrangements of imports that are in effect; see [`State::arranged`].
+    /// Indices of the changes of an import's grouping that are in effect; see [`State::arranged`].
     pub arranged: Vec<usize>,
 }
 
 impl Document {
-    /// Whether another document requests the same figures. The comparison does not count.
+    /// Whether another document has the same results, i.e. the same selection, products and scene apart from the
+    /// comparison.
     pub fn asks_the_same(&self, other: &Self) -> bool {
         (&self.selection, &self.additions, &self.changes) == (&other.selection, &other.additions, &other.changes)
             && same_question(&self.scene, &other.scene)
     }
 }
 
-/// Addition of this session, kept so that undo can remove it and redo restore it.
+/// Product added to the catalogue in this session, stored so that undo can remove it and redo can restore it.
 pub struct Added {
-    /// Product that was stored.
+    /// Product that was added.
     pub addition: Addition,
-    /// Key in the catalogue; `None` while it is not there.
+    /// Key of the product in the catalogue; `None` while it is not there.
     pub key: Option<String>,
 }
 
-/// State of opening the catalogue.
+/// Catalogue, or the state of opening it.
 pub enum CatalogueState {
     /// Catalogue being opened.
     Opening,
@@ -89,15 +92,15 @@ pub enum CatalogueState {
     Failed(String),
 }
 
-/// Result, and whether it is outdated.
+/// Result of a computation, and whether it is outdated.
 pub struct Shown<T> {
-    /// Last valid result.
+    /// Last valid result; `None` before there is one.
     pub value: Option<Arc<T>>,
-    /// Whether something that the result depends on has changed since.
+    /// Whether input of the result has changed since it was computed.
     pub stale: bool,
     /// Reason why there is no newer result.
     pub error: Option<String>,
-    /// Number that changes with every value: what is drawn from a value can be kept while it stays.
+    /// Revision number, which changes whenever the result does, so that pictures of a result can be cached.
     pub revision: u64,
 }
 
@@ -108,7 +111,7 @@ impl<T> Default for Shown<T> {
 }
 
 impl<T> Shown<T> {
-    /// Stores a new result; after a failure the last valid one stays, marked as outdated.
+    /// Takes over a new result, or an error; after an error the last valid result remains.
     pub fn take(&mut self, result: Result<T, impl std::fmt::Display>) {
         match result {
             Ok(value) => self.put(Arc::new(value)),
@@ -116,7 +119,7 @@ impl<T> Shown<T> {
         }
     }
 
-    /// Shows a value; one that is shown already keeps its revision.
+    /// Takes over a valid result; the revision number changes unless it is the same result as before.
     pub fn put(&mut self, value: Arc<T>) {
         // Counted over all of them, so that a new one does not repeat a number of its own past. An address would not
         // do: the next value may lie where the last but one lay.
@@ -127,107 +130,108 @@ impl<T> Shown<T> {
     }
 }
 
-/// Latest results.
+/// Latest results of the computations of the window.
 #[derive(Default)]
 pub struct Results {
-    /// LID of the first aperture.
+    /// Luminous intensity distribution (LID) of the first aperture.
     pub lid: Shown<LidFigures>,
-    /// Largest intensities of a LID, which take longer than the LID itself.
+    /// Largest intensities of a LID, with this LID; they take longer to compute than the LID.
     pub peaks: Option<(Arc<LidFigures>, Peaks)>,
-    /// Illuminances in the room.
+    /// Illuminances at the sensor points in the room.
     pub room: Shown<RoomFigures>,
-    /// Illuminances of the room's surfaces; computed only while they are drawn.
+    /// Illuminances on the surfaces of the room; computed only while they are drawn.
     pub surfaces: Shown<SurfaceFigures>,
-    /// Year of shading control.
+    /// State that the control rule chooses for every step of a year.
     pub year: Shown<Year>,
-    /// Annual simulation, with the scene that it was computed for.
+    /// Annual simulation of the room, with its scene.
     pub annual: Shown<Annual>,
-    /// Results of the ranked products.
+    /// Annual results of the ranked products.
     pub rank: Shown<Figures>,
-    /// Progress of a running ranking.
+    /// Progress of a ranking that is being computed; `None` if there is none.
     pub rank_pace: Option<Pace>,
-    /// Weather file that hours are picked from.
+    /// Calendar of the hours of the scene's weather data.
     pub weather: Shown<Calendar>,
-    /// Data of one incident direction in another form than the original.
+    /// Processed scattering data (filtered or compressed) for one incident direction.
     pub form: Shown<FormResult>,
-    /// Map of interpolation schemes between the directions of the data.
+    /// Map of the interpolation scheme that applies at each incident direction between those of the data.
     pub schemes: Shown<SchemesResult>,
-    /// Error against run time, with the scene that it was computed for.
+    /// Error of the results against computing time, with their scene.
     pub accuracy: Shown<Accuracy>,
-    /// Effects of obstructions, with their scene.
+    /// Effects of the obstructions on the illuminance of the apertures, with their scene.
     pub obstructions: Shown<ObstructionEffects>,
 }
 
 impl Results {
-    /// Returns the largest intensities of the LID that is shown; `None` while they are being computed.
+    /// Returns the largest intensities of the LID shown; `None` while they are being computed.
     pub fn lid_peaks(&self) -> Option<&Peaks> {
         let (of, peaks) = self.peaks.as_ref()?;
         self.lid.value.as_ref().is_some_and(|lid| Arc::ptr_eq(lid, of)).then_some(peaks)
     }
 }
 
-/// Sky and sun of the scene's moment.
+/// Sky and sun of the scene at its date and time.
 pub struct Daylight {
-    /// Sky, ground, skyline.
+    /// Luminances of the unobstructed outside: sky, ground, skyline.
     pub outside: Outside,
-    /// Sky, ground and skyline with the obstructions, as seen from the first aperture; `None` without obstructions.
+    /// Luminances of sky, ground, skyline and obstructions as seen from the first aperture; `None` without
+    /// obstructions.
     pub seen: Option<Box<Outside>>,
-    /// Direct sun, if there is any.
+    /// Direct sun; `None` if it does not shine.
     pub sun: Option<Sun>,
 }
 
-/// Sheet over the right edge of the tile area.
+/// Side panel at the right edge of the tile area.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sheet {
     /// Import of files.
     Import,
     /// Findings of the data check.
     Findings,
-    /// List of all shortcuts.
+    /// List of all keyboard shortcuts.
     Keys,
-    /// Error against run time.
+    /// Plot of the error of results against computing time.
     Accuracy,
-    /// Data computed from a description of geometry and material.
+    /// Virtual goniophotometer: scattering data computed from a description of geometry and materials.
     Goniophotometer,
-    /// Name, maker, kind and tags of a product.
+    /// Texts about a product: name, manufacturer, kind and tags.
     Product,
     /// Deleted products.
     Deleted,
-    /// Collections, and those of the selected product.
+    /// Collections of products, and those that contain the selected product.
     Collections,
-    /// Folders of packages that are subscribed to.
+    /// Subscribed folders of packages.
     Subscriptions,
-    /// Messages of the window.
+    /// List of the messages of the window.
     Messages,
     /// Export: pictures, reports, luminaires, data.
     Export,
-    /// Path to open or write.
+    /// Field for a path to open or write.
     Path(PathUse),
 }
 
-/// Purpose of a typed path.
+/// Purpose of a path that the user types or chooses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PathUse {
     /// Open datasets or a scene.
     Open,
     /// Save the scene.
     SaveScene,
-    /// Write the LID as a luminaire file.
+    /// Write the luminous intensity distribution (LID) as a luminaire file.
     ExportLid,
-    /// Write a tile as numbers (.csv).
+    /// Write the numbers of a tile as a table (.csv).
     ExportTile(Tile),
-    /// Write the computed states of the goniophotometer.
+    /// Write the states computed by the virtual goniophotometer.
     ExportMeasured,
     /// Read a file that replaces the data of a product's state.
     ReplaceState,
     /// Subscribe to a folder of packages.
     Subscribe,
-    /// Write an export.
+    /// Write the export of the export panel.
     Export,
 }
 
 impl PathUse {
-    /// Returns the title of the dialog or sheet that asks for the path.
+    /// Returns the title of the dialog or side panel that requests the path.
     pub const fn title(self) -> Text {
         match self {
             Self::Open => shell::OPEN,
@@ -244,108 +248,110 @@ impl PathUse {
 
 /// State of the window.
 pub struct State {
-    /// Document that undo covers.
+    /// Document, the part of the state that undo covers.
     pub document: Document,
-    /// Settings that are kept.
+    /// Settings that are stored between starts.
     pub settings: Settings,
     /// Catalogue, or the state of opening it.
     pub catalogue: CatalogueState,
-    /// Search as set by the search field and the chips.
+    /// Search of the catalogue, set by the search field and the filters.
     pub query: Query,
-    /// Product list.
+    /// Products found, shown as a list or gallery.
     pub found: Arc<Found>,
-    /// Reason why the search failed.
+    /// Reason why the last search failed.
     pub search_error: Option<String>,
-    /// Tile that fills the tile area.
+    /// Tile that fills the tile area; `None` if the tiles are arranged by the layout.
     pub maximised: Option<Tile>,
-    /// Sheet that is open.
+    /// Side panel that is open.
     pub sheet: Option<Sheet>,
-    /// Text of a sheet's path field.
+    /// Text of the path field of a side panel.
     pub path: String,
-    /// Path that was to be written but exists; the user is asked whether to replace it.
+    /// Path of an existing file that is to be written; the user is asked whether to replace it.
     pub replace: Option<PathBuf>,
-    /// Export dialog.
+    /// State of the export panel.
     pub export: ExportState,
-    /// Import that is open.
+    /// Open import.
     pub import: Option<Import>,
-    /// Import in progress: being read from its files, or written to the catalogue.
+    /// Import that is being read from its files or written to the catalogue, as stored in the session.
     pub under_way: Option<KeptImport>,
-    /// Import whose products are being stored, kept in case they cannot be.
+    /// Import whose products are being stored; it is opened again if they cannot be.
     pub storing: Option<Import>,
     /// Drafts of imports.
     pub drafts: Vec<KeptImport>,
     /// Imports and drafts that were discarded in this session.
     pub discarded: Vec<KeptImport>,
-    /// Steps from one arrangement of an import to another in this session.
+    /// Changes of an import's grouping in this session.
     pub arranged: Vec<Arranged>,
-    /// State of the goniophotometer's sheet.
+    /// State of the virtual goniophotometer's side panel.
     pub goniophotometer: Bench,
-    /// Additions of this session.
+    /// Products added to the catalogue in this session.
     pub additions: Vec<Added>,
     /// Changes of this session to products of the catalogue.
     pub changes: Vec<Change>,
-    /// Sheet of the product that is being edited.
+    /// State of the side panel of the product that is being edited.
     pub editing: Option<Editing>,
-    /// Keys of a product and of its state whose data are to be replaced.
+    /// Keys of the product and the state whose data are to be replaced.
     pub replacing: Option<(String, String)>,
-    /// Deleted products, as last looked up.
+    /// Deleted products, found by the last look-up.
     pub deleted: Vec<Deleted>,
-    /// Collections and subscriptions, as last looked up.
+    /// Collections and subscriptions, found by the last look-up.
     pub sets: Sets,
     /// Name of a new collection, as typed.
     pub collection: String,
     /// Text of the command palette while it is open.
     pub palette: Option<String>,
-    /// Row of the palette that Enter activates.
+    /// Index of the row of the command palette that Enter executes.
     pub palette_row: usize,
-    /// Products of the catalogue that match the palette's text.
+    /// Products of the catalogue that match the text of the command palette.
     pub palette_hits: Vec<Hit>,
-    /// Text that `palette_hits` belongs to.
+    /// Text of the command palette for which `palette_hits` were found.
     pub palette_hits_of: String,
-    /// Whether the search field is to get the keyboard.
+    /// Whether the search field is to get the keyboard focus.
     pub focus_search: bool,
-    /// Whether the field of the opened sheet is to get the keyboard.
+    /// Whether the field of the opened side panel is to get the keyboard focus.
     pub wants_keyboard: bool,
-    /// Whether the selected row of the list gets the keyboard in the next frame.
+    /// Whether the selected entry of the catalogue is to get the keyboard focus in the next frame.
     pub focus_list: bool,
-    /// Whether the first row is selected as soon as the list is that of the typed search.
+    /// Whether the first product is to be selected as soon as the typed search has been executed.
     pub first_due: bool,
-    /// Dataset of the selection.
+    /// Dataset of the selected product and state.
     pub dataset: Shown<Dataset>,
-    /// Findings of the data check, with their dataset.
+    /// Findings of the data check, with the dataset that was checked.
     pub examined: Option<(Arc<Dataset>, Arc<Vec<Diagnosis>>)>,
-    /// Computation that the dataset of the selection waits for, as text for the tiles' heads.
+    /// Text for the heads of tiles on the computation that the selected dataset requires first; `None` without one.
     pub computing: Option<String>,
-    /// Selected product: states with their figures, control curve.
+    /// Information about the selected product: states with their figures, control curve.
     pub product: Option<Arc<Product>>,
-    /// Incident direction that the user chose; while `None`, the sun's if it is in front of the façade.
+    /// Incident direction that the user chose for the BTDF tile; `None`: the direction of the sun, if it is in front of
+    /// the façade.
     pub incident: Option<Incident>,
-    /// View of the BTDF tile on the data.
+    /// Choice of the data that the BTDF tile shows.
     pub data_look: DataLook,
-    /// Key of the state that is shown: set by hand, or picked by control.
+    /// Key of the state shown, which was set by hand or chosen by the control rule.
     pub shown_state: String,
-    /// Sky and sun of the scene.
+    /// Sky and sun of the scene at its date and time.
     pub daylight: Shown<Daylight>,
-    /// Key of the scene that is wrong.
+    /// Error of a key of the scene; `None` if there is none.
     pub scene_error: Option<SkyKeyError>,
-    /// Path that the scene was opened from or saved to; its relative paths start there.
+    /// Path from which the scene was opened or to which it was saved; relative paths in the scene start from its
+    /// folder.
     pub scene_path: Option<PathBuf>,
-    /// Aperture whose control is edited on its own; `None`: the control of the scene.
+    /// Index of the aperture whose separate control rule is edited; `None`: that of the scene.
     pub control_of: Option<usize>,
     /// Display settings of the comparison.
     pub compare: View,
-    /// Tour, while it is under way.
+    /// Running tour; `None` if it is not running.
     pub tour: Option<Tour>,
-    /// Whether the tour is offered, because the window was never open before.
+    /// Whether the tour is offered, because the user has never opened the window before.
     pub tour_offered: bool,
-    /// Row of the list that the keyboard is on.
+    /// Index of the row of the catalogue that the keyboard has reached.
     pub row: usize,
-    /// Key of the product that the list was last scrolled to.
+    /// Key of the product to which the list was last scrolled.
     pub scrolled_to: String,
 }
 
 impl State {
-    /// Creates the state at the start, before anything was read.
+    /// Creates the state of a new window, before anything has been read.
     pub fn new(settings: Settings) -> Self {
         let scene = settings.last_scene.as_deref().and_then(kept_scene);
         let scene = scene.unwrap_or_else(first_scene);
@@ -410,12 +416,13 @@ impl State {
         }
     }
 
-    /// Returns the mode of the control rule that picks the state.
+    /// Returns the mode of the control rule that chooses the state; `Fixed` if the state is set by hand.
     pub fn control_mode(&self) -> ControlMode {
         self.picking_rule().map_or(ControlMode::Fixed, |control| control.mode)
     }
 
-    /// Returns the control rule with all its keys; a fixed one at the shown state if the state is set by hand.
+    /// Returns the control rule that chooses the state; if the state is set by hand, a rule that is fixed at the state
+    /// shown.
     pub fn control_keys(&self) -> ControlKeys {
         self.picking_rule().cloned().unwrap_or_else(|| ControlKeys {
             state: Some(self.shown_state.clone()).filter(|key| !key.is_empty()),
@@ -429,33 +436,33 @@ impl State {
         rule(&document.scene, self.control_aperture()).filter(|_| controlled)
     }
 
-    /// Returns the key that the control year of a product depends on; `None` without place and date.
+    /// Returns the key of all input of a product's control over a year; `None` if the scene has no site or date.
     pub fn year_key(&self, product: &str) -> Option<YearKey> {
         let scene = &self.document.scene;
         YearKey::new(scene, product, self.control_keys(), self.control_aperture(), self.base())
     }
 
-    /// Returns the aperture whose control is shown and edited, from 0: the chosen one, else the first.
+    /// Returns the index of the aperture whose control is shown and edited: the chosen one, else the first.
     pub fn control_aperture(&self) -> usize {
         self.control_of.filter(|index| *index < self.document.scene.aperture.len()).unwrap_or(0)
     }
 
-    /// Returns the folder that relative paths of the scene start from.
+    /// Returns the folder from which relative paths in the scene start; empty for the working folder.
     pub fn base(&self) -> PathBuf {
         self.scene_path.as_deref().and_then(std::path::Path::parent).map(PathBuf::from).unwrap_or_default()
     }
 
-    /// Returns the files that the scene names.
+    /// Returns the paths of all files that the scene names.
     pub fn files_of_scene(&self) -> Vec<PathBuf> {
         inputs_of(&self.document.scene, &self.base())
     }
 
-    /// Returns the files that results are made from: the scene and the files that it names.
+    /// Returns the paths of all input files of the results: the scene file and the files that it names.
     pub fn made_from(&self) -> Vec<PathBuf> {
         self.scene_path.iter().cloned().chain(self.files_of_scene()).collect()
     }
 
-    /// Returns the catalogue, once it is ready.
+    /// Returns the catalogue; `None` until it is ready.
     pub fn shelf(&self) -> Option<Arc<dyn Shelf>> {
         match &self.catalogue {
             CatalogueState::Ready(shelf) => Some(shelf.clone()),

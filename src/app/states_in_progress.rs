@@ -1,4 +1,4 @@
-//! Shared computation: several threads that wait for the same state compute it once.
+//! Shared computation of product states: a state that several threads need at the same time is computed once.
 
 use super::error::AppError;
 use crate::catalogue::StateKey;
@@ -8,17 +8,17 @@ use std::collections::HashSet;
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::time::Duration;
 
-/// Interval at which a waiting thread checks whether its result is still wanted.
+/// Interval at which a waiting thread checks whether its job has been cancelled.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// States that are currently being computed.
+/// Set of the product states that are currently being computed.
 #[derive(Default)]
 pub struct StatesInProgress {
     states: Mutex<HashSet<StateKey>>,
     fewer: Condvar,
 }
 
-/// Guard that removes its state from the set when it is dropped, however the computation ends.
+/// Guard that removes a state from [`StatesInProgress`] when it is dropped, however the computation ends.
 struct Turn<'a> {
     in_progress: &'a StatesInProgress,
     state: &'a StateKey,
@@ -32,8 +32,8 @@ impl Drop for Turn<'_> {
 }
 
 impl StatesInProgress {
-    /// Computes a state unless it is there already. Waits if another thread is computing it; if that thread gives up,
-    /// takes over.
+    /// Executes `compute` for a state unless `is_there` says that its data exist. Waits if another thread is computing
+    /// the state, and computes it if that thread fails or is cancelled.
     ///
     /// # Errors
     /// Returns the errors of `is_there` and `compute`, or an error if cancelled while waiting.

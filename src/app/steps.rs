@@ -1,5 +1,5 @@
-//! History for the report on a fault: the last commands by their names, without the paths in them, and the faults that
-//! were reported.
+//! History for reports on internal errors: the last commands by name, without the paths in them, and the errors already
+//! reported.
 
 use super::clock;
 use super::command::Command;
@@ -8,12 +8,12 @@ use std::collections::VecDeque;
 use std::fmt::{self, Write};
 use std::path::PathBuf;
 
-/// Maximum number of steps kept.
+/// Maximum number of steps stored.
 const MOST: usize = 40;
 /// Maximum length of the text of a step. \[characters\]
 const LONGEST: usize = 80;
 
-/// Step, possibly repeated by dragging or by a key that is held.
+/// Command in the history, with the number of times it was repeated in succession by dragging or by a held key.
 #[derive(Debug)]
 struct Step {
     at: String,
@@ -21,20 +21,21 @@ struct Step {
     times: usize,
 }
 
-/// Reports on faults.
+/// Reports on internal errors of the program.
 #[derive(Debug, Default)]
 pub struct Faults {
-    /// Folder that reports are written to.
+    /// Folder to which reports are written.
     pub folder: Option<PathBuf>,
-    /// Faults that were reported, with their reports: a repeated fault needs no second report.
+    /// Errors already reported, with the paths of their reports: a repeated error needs no second report.
     pub reported: Vec<(Fault, PathBuf)>,
 }
 
-/// Last steps, newest last.
+/// History of the last commands, newest last.
 #[derive(Debug, Default)]
 pub struct Steps(VecDeque<Step>);
 
-/// Writer that stops when the text is long enough, or where the content of a command begins: a whole scene may follow.
+/// Writer for the debug text of a command, which stops at the maximum length or, if only the name is wanted, where the
+/// content begins, because this may be a whole scene.
 struct Short {
     text: String,
     name_alone: bool,
@@ -52,7 +53,7 @@ impl Write for Short {
     }
 }
 
-/// Whether the content of a command is short and contains no path.
+/// Whether the content of a command is short and contains no path, so that it may be in the history.
 const fn is_short(command: &Command) -> bool {
     use Command::{
         Arrange, Cancel, Control, DataForm, Day, Hour, Incidence, Language, NextState, Outside, Repair, RoomView, Row,
@@ -83,7 +84,7 @@ const fn is_short(command: &Command) -> bool {
 }
 
 impl Steps {
-    /// Records a command that is about to be done.
+    /// Adds a command that is about to be executed to the history.
     pub fn keep(&mut self, command: &Command) {
         let mut short = Short { text: String::new(), name_alone: !is_short(command) };
         // It stops where there is enough.
@@ -99,7 +100,7 @@ impl Steps {
         }
     }
 
-    /// Returns the steps as text, one line per step, newest last.
+    /// Returns the history as text, one line for each step, newest last.
     pub fn lines(&self) -> Vec<String> {
         let line = |step: &Step| match step.times {
             1 => format!("{} {}", step.at, step.what),

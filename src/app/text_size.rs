@@ -1,19 +1,19 @@
-//! Text size, and with it the size of everything: in steps, and limited so that the window keeps room for its minimum
-//! content.
+//! Text size, with which everything in the window is scaled: in steps, and limited so that the window has room for its
+//! minimum content.
 
 use egui::Vec2;
 
-/// Text sizes that can be set, relative to that of the desktop.
+/// Text sizes that can be set, as factors on that of the desktop.
 pub const SIZES: [f32; 8] = [0.8, 0.9, 1.0, 1.1, 1.25, 1.5, 1.75, 2.0];
 
-/// Minimum size of a window in which everything can be read at the desktop's own text size. \[points\]
+/// Minimum size (width, height) of a window in which everything is readable at the text size of the desktop. \[points\]
 pub const LEAST_WINDOW: Vec2 = Vec2::new(960.0, 600.0);
 
-/// Minimum size of the window, with text of the smallest size: that which a screen of 1366 × 768 pixels shown at 150 %
-/// leaves beside a task bar and the window's title. \[points of the desktop\]
+/// Minimum size (width, height) of the window, for text of the smallest size \[points of the desktop\]: the space that
+/// task bar and window title leave on a screen of 1366 × 768 pixels at a desktop scale of 150 %.
 pub const SMALLEST_WINDOW: Vec2 = Vec2::new(768.0, 440.0);
 
-/// Change of the text size.
+/// Command that changes the text size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextSize {
     /// One step larger.
@@ -25,7 +25,7 @@ pub enum TextSize {
 }
 
 impl TextSize {
-    /// Returns the size after this change.
+    /// Returns the text size after this change of `size`, both as factors on that of the desktop.
     pub fn after(self, size: f32) -> f32 {
         match self {
             Self::Larger => SIZES.into_iter().find(|one| *one > size + 1e-3).unwrap_or(size),
@@ -35,8 +35,8 @@ impl TextSize {
     }
 }
 
-/// Returns the largest of the sizes up to the wanted one for which a window of this size \[points of the desktop\] has
-/// room, or else the smallest.
+/// Returns the largest of [`SIZES`] up to `wanted` for which a window of the size `window` \[points of the desktop\]
+/// has room; the smallest if there is none.
 pub fn fitting(wanted: f32, window: Vec2) -> f32 {
     let most = (window / LEAST_WINDOW).min_elem();
     let fits = |size: &f32| *size <= wanted + 1e-3 && *size <= most + 1e-3;

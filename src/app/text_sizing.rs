@@ -1,11 +1,11 @@
-//! Acting on changes of the text size.
+//! Commands of the window on the text size.
 
 use super::text_size::{TextSize, fitting};
 use super::window::App;
 use crate::texts::shell;
 use egui::Vec2;
 
-/// Returns the window's size, independent of its text size. \[points of the desktop\]
+/// Returns the size of the window, independent of its text size. \[points of the desktop\]
 fn window(ctx: &egui::Context) -> Vec2 {
     ctx.content_rect().size() * ctx.zoom_factor()
 }
@@ -24,7 +24,7 @@ impl App {
         }
     }
 
-    /// Shows the text in the chosen size, or the largest that the window has room for.
+    /// Sets the chosen text size in egui, or the largest smaller one that the window has room for.
     pub(super) fn follow_text_size(&self, ctx: &egui::Context) {
         let size = fitting(self.state.settings.text_size, window(ctx));
         if (size - ctx.zoom_factor()).abs() > 1e-3 {

@@ -1,4 +1,4 @@
-//! Colours, gaps, strokes and fonts of the window: separate designs for light and dark, neither derived from the other.
+//! Colours, gaps, strokes and fonts of the window, with separate colours for the light and the dark theme.
 
 use crate::drawing::font::DEJAVU;
 use crate::texts::{self, Text, commands, shell};
@@ -6,7 +6,7 @@ use egui::epaint::text::{FontInsert, FontPriority, InsertFontFamily};
 use egui::style::NumberFormatter;
 use egui::{Color32, Context, CornerRadius, FontData, FontFamily, FontId, Margin, Stroke, TextStyle, Theme, Vec2};
 
-/// Theme that the user chose.
+/// Theme of the window that the user chose.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 pub enum ThemeChoice {
     /// Theme of the desktop.
@@ -22,7 +22,7 @@ impl ThemeChoice {
     /// All themes, in the order of the menu.
     pub const ALL: [Self; 3] = [Self::System, Self::Light, Self::Dark];
 
-    /// Returns the label.
+    /// Returns the label of the theme.
     pub const fn word(self) -> Text {
         match self {
             Self::System => shell::AS_THE_DESKTOP,
@@ -31,7 +31,7 @@ impl ThemeChoice {
         }
     }
 
-    /// Sets the theme in egui.
+    /// Makes this the theme of egui.
     pub fn apply(self, ctx: &Context) {
         ctx.set_theme(match self {
             Self::System => egui::ThemePreference::System,
@@ -41,14 +41,14 @@ impl ThemeChoice {
     }
 }
 
-/// Colours that a theme adds to egui's own.
+/// Colours of a theme in addition to those of egui.
 #[derive(Debug, Clone, Copy)]
 pub struct Palette {
     /// Background of the tile area.
     pub ground: Color32,
     /// Background of a tile or panel.
     pub surface: Color32,
-    /// Background of a text field or a raised chip.
+    /// Background of a text field or a chip, and of a row under the pointer.
     pub raised: Color32,
     /// Colour of separating lines.
     pub line: Color32,
@@ -66,12 +66,12 @@ pub struct Palette {
     pub error: Color32,
     /// Colour of success.
     pub good: Color32,
-    /// Colour of the sun, and of stars.
+    /// Colour of the sun, and of the stars that mark favourites.
     pub sun: Color32,
 }
 
 impl Palette {
-    /// Returns the background of a row or card of a list.
+    /// Returns the background of a row or card of a list: selected, under the pointer or focused, or neither.
     pub fn behind(&self, chosen: bool, response: &egui::Response) -> Color32 {
         if chosen {
             self.chosen
@@ -83,7 +83,7 @@ impl Palette {
     }
 }
 
-/// Palette of the light theme: warm paper and ink.
+/// Colours of the light theme.
 pub const LIGHT: Palette = Palette {
     ground: Color32::from_rgb(0xE9, 0xEA, 0xEC),
     surface: Color32::from_rgb(0xFB, 0xFB, 0xFA),
@@ -99,7 +99,7 @@ pub const LIGHT: Palette = Palette {
     sun: Color32::from_rgb(0xC7, 0x7D, 0x00),
 };
 
-/// Palette of the dark theme: a dim instrument room.
+/// Colours of the dark theme.
 pub const DARK: Palette = Palette {
     ground: Color32::from_rgb(0x12, 0x15, 0x19),
     surface: Color32::from_rgb(0x1B, 0x1F, 0x25),
@@ -115,38 +115,38 @@ pub const DARK: Palette = Palette {
     sun: Color32::from_rgb(0xFF, 0xC9, 0x4D),
 };
 
-/// Returns the palette of the current theme.
+/// Returns the colours of the current theme.
 pub fn palette(ui: &egui::Ui) -> &'static Palette {
     palette_of(ui.visuals())
 }
 
-/// Returns the palette that belongs to egui's own colours.
+/// Returns the colours for the theme of these egui visuals.
 pub const fn palette_of(visuals: &egui::Visuals) -> &'static Palette {
     if visuals.dark_mode { &DARK } else { &LIGHT }
 }
 
-/// Gap between tiles. \[points\]
+/// Gap between neighbouring tiles. \[points\]
 pub const TILE_GAP: f32 = 6.0;
-/// Height of a row of the catalogue. \[points\]
+/// Height of a row in the list of products. \[points\]
 pub const ROW_HEIGHT: f32 = 52.0;
 
-/// Returns the frame of a side panel or bar.
+/// Returns the frame (background and margins) of a panel.
 pub fn panel_frame(ui: &egui::Ui) -> egui::Frame {
     egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 8))
 }
 
-/// Returns the frame of a bar of small height at the top or bottom.
+/// Returns the frame (background and margins) of a bar at the top or bottom of the window.
 pub fn bar_frame(ui: &egui::Ui) -> egui::Frame {
     egui::Frame::new().fill(palette(ui).surface).inner_margin(Margin::symmetric(10, 4))
 }
 
-/// Returns a font that is used where all others lack a character.
+/// Returns a font for egui that is used for characters missing in all other fonts.
 pub fn fallback(name: &str, data: FontData) -> FontInsert {
     let family = |family| InsertFontFamily { family, priority: FontPriority::Lowest };
     FontInsert::new(name, data, vec![family(FontFamily::Proportional), family(FontFamily::Monospace)])
 }
 
-/// Sets fonts, both themes and spacing. Called once, at the start.
+/// Sets fonts, colours of both themes, and spacing in egui. Called once, at the start.
 pub fn install(ctx: &Context) {
     // Fills the gaps of the built-in fonts (arrows, triangles, primes, superscript minus).
     ctx.add_font(fallback("fallback", FontData::from_static(DEJAVU)));
@@ -179,6 +179,7 @@ pub fn install(ctx: &Context) {
     }
 }
 
+/// Sets egui's colours and strokes of one theme.
 fn visuals(visuals: &mut egui::Visuals, palette: &Palette) {
     visuals.panel_fill = palette.surface;
     visuals.window_fill = palette.surface;
@@ -212,7 +213,7 @@ fn visuals(visuals: &mut egui::Visuals, palette: &Palette) {
     }
 }
 
-/// Lays out one line of text, cut with '…' if it is wider than `width`.
+/// Lays out one line of text, cut with '…' if it is wider than `width` \[points\].
 pub fn one_line(
     painter: &egui::Painter,
     text: &str,

@@ -1,4 +1,4 @@
-//! Title of the window: selection, place and time as text.
+//! Title of the window: selected product, site, date and time as text.
 
 use super::scene::own_system;
 use super::state::{CatalogueState, State};
@@ -11,20 +11,20 @@ use crate::texts::shell;
 
 pub use crate::study::scene_words::{coordinates, place, site, sky, system, time};
 
-/// Returns the name of the selected product: the product's own, whatever the list shows. While it is being read, that
-/// in the list, else its key.
+/// Returns the name of the selected product; while the product is being loaded, its name in the list of products, or
+/// else its key.
 pub fn product(state: &State) -> String {
     let key = &state.document.selection.product;
     let listed = || state.found.entries.iter().find(|entry| entry.key == *key).map(|entry| entry.name.clone());
     selected(state).map(|product| product.name.clone()).or_else(listed).unwrap_or_else(|| key.clone())
 }
 
-/// Returns the selected product, once it was read.
+/// Returns the selected product; `None` until it is loaded.
 pub fn selected(state: &State) -> Option<&Product> {
     state.product.as_deref().filter(|product| product.key == state.document.selection.product)
 }
 
-/// Returns product and state as text.
+/// Returns name and state of the selected product as text.
 pub fn selection(state: &State) -> String {
     let name = product(state);
     let key = match state.document.selection.state.as_str() {
@@ -37,13 +37,13 @@ pub fn selection(state: &State) -> String {
     if words.is_empty() || name.is_empty() { name } else { format!("{name}, {words}") }
 }
 
-/// Returns the name of the system in the room: the selection, or the scene's own system if no aperture is filled from
-/// the catalogue.
+/// Returns the name of the system in the apertures: product and state of the selection, or the system given in the
+/// scene if no aperture has a product of the catalogue.
 pub fn in_room(state: &State) -> String {
     own_system(&state.document.scene).map_or_else(|| selection(state), system)
 }
 
-/// Returns the whole title.
+/// Returns the whole title of the window.
 pub fn title(state: &State) -> String {
     let scene = &state.document.scene;
     let product = in_room(state);

@@ -1,28 +1,29 @@
-//! Tour in five steps on real content: each step is done by doing it, none blocks anything else.
+//! Introductory tour of the window in five steps on the user's content: the user executes each step in the window,
+//! which is not blocked.
 
 use crate::study::scene_file::TimeKey;
 use crate::texts::{Text, shell};
 
-/// Step of the tour.
+/// Step of the introductory tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stop {
-    /// Choose a product.
+    /// Select a product.
     Product,
-    /// Move the sun.
+    /// Move the sun in the sky tile or by the time of day.
     Sun,
-    /// Look at LID or room.
+    /// Maximise the LID tile or the room tile.
     Light,
     /// Add a candidate to the comparison.
     Compare,
-    /// Export.
+    /// Open the export panel.
     Export,
 }
 
 impl Stop {
-    /// All steps, in order.
+    /// All steps of the tour, in order.
     pub const ALL: [Self; 5] = [Self::Product, Self::Sun, Self::Light, Self::Compare, Self::Export];
 
-    /// Returns the instruction.
+    /// Returns the instruction for the step.
     pub const fn words(self) -> Text {
         match self {
             Self::Product => shell::TOUR_PRODUCT,
@@ -37,7 +38,7 @@ impl Stop {
 /// Command about the tour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TourAct {
-    /// Start, or continue after the last finished step.
+    /// Start the tour, or continue after the last finished step.
     Start,
     /// Leave the tour.
     Leave,
@@ -45,7 +46,7 @@ pub enum TourAct {
     Decline,
 }
 
-/// Values by which a finished step is recognised.
+/// Values of the window by whose changes a finished step of the tour is recognised.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Seen {
     pub(super) product: String,
@@ -56,7 +57,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// Whether a step was done between this and `now`.
+    /// Whether the user has done a step, judged by the changes from these values to `now`.
     pub(super) fn done(&self, now: &Self, stop: Stop) -> bool {
         match stop {
             Stop::Product => now.product != self.product,
@@ -68,11 +69,11 @@ impl Seen {
     }
 }
 
-/// Running tour.
+/// State of the running tour.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tour {
-    /// Current step.
+    /// Step that the user is to do.
     pub stop: Stop,
-    /// Values in the last frame.
+    /// Values of the window in the last frame.
     pub(super) seen: Seen,
 }

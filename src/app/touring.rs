@@ -1,4 +1,4 @@
-//! Acting on the tour, which continues when its step is done.
+//! Commands of the window on the tour, and its progress from step to step.
 
 use super::state::{Sheet, State};
 use super::tiles::{LID, ROOM, SKY};
@@ -19,7 +19,7 @@ fn seen(state: &State) -> Seen {
 }
 
 impl App {
-    /// Acts on a command about the tour.
+    /// Executes a command about the tour.
     pub(super) fn tour(&mut self, act: TourAct) {
         self.state.tour_offered = false;
         match act {
@@ -32,7 +32,7 @@ impl App {
         }
     }
 
-    /// Makes the place visible where a step is done.
+    /// Starts a step of the tour, and makes the part of the window visible in which it is done.
     fn begin_stop(&mut self, stop: Stop) {
         let state = &mut self.state;
         match stop {
@@ -51,7 +51,7 @@ impl App {
         self.state.tour = Some(Tour { stop, seen: seen(&self.state) });
     }
 
-    /// Checks whether the step was done since the last frame.
+    /// Checks whether the current step has been done since the last frame, and starts the next one if so.
     pub(super) fn follow_tour(&mut self) {
         let Some(tour) = &self.state.tour else { return };
         // At the start of the window something is chosen that nobody chose.

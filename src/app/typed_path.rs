@@ -1,12 +1,12 @@
-//! Paths as people type and paste them.
+//! Reading of paths as users type and paste them.
 
 use super::naming::start_path;
 use super::state::{PathUse, State};
 use directories::UserDirs;
 use std::path::PathBuf;
 
-/// Returns the path that a text names: without blanks and quotation marks around it, also as the address of a file
-/// (`file:///data/a%20b.xml`) and from the home folder (`~/a.xml`).
+/// Returns the path that a text names. Blanks and quotation marks around it are removed; it may be the address of a
+/// file (`file:///data/a%20b.xml`) or start from the home folder (`~/a.xml`).
 pub fn typed_path(text: &str) -> PathBuf {
     let text = text.trim();
     let quoted = ['"', '\''].into_iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark));
@@ -21,8 +21,8 @@ pub fn typed_path(text: &str) -> PathBuf {
     }
 }
 
-/// Returns the path in the address of a file after `file://` (RFC 8089): an optional machine name and percent-encoded
-/// bytes.
+/// Returns the path in the address of a file (RFC 8089), given the part after `file://`; percent-encoded bytes are
+/// decoded.
 fn of_address(address: &str) -> PathBuf {
     let path = address.strip_prefix("localhost").unwrap_or(address);
     let mut bytes = Vec::with_capacity(path.len());
@@ -46,7 +46,8 @@ fn of_address(address: &str) -> PathBuf {
     PathBuf::from(drive.unwrap_or(&path))
 }
 
-/// Returns a path to write to, with the extension of the proposed name if it has none.
+/// Returns a path that a file is written to, with the extension of the proposed file name added if it has none; paths
+/// to read are not changed.
 pub fn with_ending(state: &State, what: PathUse, path: PathBuf) -> PathBuf {
     let reads = matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe);
     let proposed = start_path(state, what);

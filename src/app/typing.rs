@@ -1,9 +1,9 @@
-//! Dates, times of day, coordinates and numbers as people type them; ambiguous input is refused.
+//! Reading of dates, times of day, coordinates and numbers as users type them; ambiguous input is refused.
 
 use crate::texts::{decimal, scene as texts};
 use jiff::civil::Date;
 
-/// Beginnings of the months' names, English and German, without accents.
+/// Beginnings of the names of the months from January to December, in English and German, without accents.
 const MONTHS: [&[&str]; 12] = [
     &["jan"],
     &["feb"],
@@ -25,7 +25,7 @@ fn month_of(word: &str) -> Option<i8> {
     MONTHS.iter().position(begins).and_then(|index| i8::try_from(index + 1).ok())
 }
 
-/// Reads a date: `21.3.`, `21 Mar`, `Mar 21`, `2026-03-21`; without a year it is in `year`.
+/// Reads a date: `21.3.`, `21 Mar`, `Mar 21`, `2026-03-21`; a date without a year is in `year`.
 ///
 /// # Errors
 /// Returns a message with the expected form if the text is not a date.
@@ -58,7 +58,7 @@ pub fn read_date(text: &str, year: i16) -> Result<Date, String> {
     Date::new(year, month, day).map_err(|_| texts::no_such_day(text))
 }
 
-/// Reads hour and minute of a day: `12:30`, `12.5`, `9`; `930` is refused.
+/// Reads a time of day, returned as hour and minute: `12:30`, `12.5`, `9`; `930` is refused.
 ///
 /// # Errors
 /// Returns a message with the expected form if the text is not a time.
@@ -95,10 +95,11 @@ pub fn read_clock(text: &str) -> Result<(i8, i8), String> {
     if (0..24).contains(&hour) && (0..60).contains(&minute) { Ok((hour, minute)) } else { Err(wrong()) }
 }
 
-/// Reads latitude and longitude \[°\]: `48.78 9.18`, `48.78°N, 9.18°E`; `None` if it is not a pair of numbers.
+/// Reads latitude (north positive) and longitude (east positive) \[°\]: `48.78 9.18`, `48.78°N, 9.18°E`; `None` if the
+/// text is not a pair of numbers.
 ///
 /// # Errors
-/// Returns a message with the expected form if the pair lies outside the globe's range.
+/// Returns a message with the valid ranges if a number lies outside them.
 pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
     let parts =
         |signs: &[char]| -> Vec<&str> { text.split(signs).map(str::trim).filter(|part| !part.is_empty()).collect() };
@@ -130,7 +131,7 @@ pub fn read_coordinates(text: &str) -> Option<Result<(f64, f64), String>> {
     })
 }
 
-/// Reads a number with a point or a comma, with or without its unit.
+/// Reads a number with a decimal point or comma, followed by its unit or not; `None` if the text is not a number.
 pub fn read_number(text: &str, unit: &str) -> Option<f64> {
     let plain: String = text.chars().filter(|c| !c.is_whitespace()).map(|c| if c == '−' { '-' } else { c }).collect();
     let unit: String = unit.chars().filter(|c| !c.is_whitespace()).collect();

@@ -1,4 +1,4 @@
-//! The window itself: its state, its results, and its services.
+//! The window of the program: its state, its results, and its services.
 
 use super::autosave::Autosave;
 use super::backend;
@@ -32,90 +32,115 @@ use std::collections::{BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Function that opens the catalogue; runs in a job.
+/// Function that opens the catalogue of products; it is executed in a job.
 pub type OpenCatalogue = Arc<dyn Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Sync>;
 
-/// Services that the window needs from outside; tests use their own.
+/// Services that the window needs from outside; tests use other ones than the program.
 pub struct Services {
     /// Function that opens the catalogue.
     pub open_catalogue: OpenCatalogue,
     /// Function that reads dataset files.
     pub read: ReadDataset,
-    /// Dialogs that ask for paths.
+    /// Dialogs of the desktop for paths.
     pub dialogs: Arc<dyn FileDialogs>,
-    /// Engine for the computations.
+    /// Engine that executes the photometric computations.
     pub engine: Arc<dyn Engine>,
 }
 
-/// Change to the catalogue that waits for its turn.
+/// Change of the catalogue that waits until earlier ones are complete.
 pub(super) type Change = Box<dyn FnOnce(&dyn Shelf) -> Outcome + Send>;
 
 /// Window of the program.
 pub struct App {
-    /// State of the window.
+    /// State of the window: document, settings, and display states.
     pub state: State,
-    /// Results of computations.
+    /// Latest results of the computations.
     pub results: Results,
+    /// Services that the window uses.
     pub(super) services: Services,
-    /// Library of files and products that system files name.
+    /// Library of the files and products that system files name.
     pub(super) library: Arc<Library>,
+    /// Running jobs.
     pub(super) jobs: Jobs<Outcome>,
+    /// Changes of the catalogue that wait until earlier ones are complete, in their order.
     pub(super) pending_changes: VecDeque<Change>,
-    /// Whether some built-in products wait for their data.
+    /// Whether data of built-in products are still to be computed.
     pub(super) fill_due: bool,
+    /// Number of consecutive failures in computing data of built-in products.
     pub(super) fill_failures: usize,
-    /// Path that the LID is to be written to as soon as it is that of the scene.
+    /// Path to which the luminous intensity distribution (LID) is to be written as soon as it is up to date.
     pub(super) lid_to: Option<PathBuf>,
-    /// Numbers of the additions that are being stored.
+    /// Indices of the additions of this session that are being stored.
     pub(super) adding: BTreeSet<usize>,
+    /// Undo history of the document.
     pub(super) undoer: Undoer<Document>,
-    /// Whether something had the keyboard when the last frame ended.
+    /// Whether a widget had the keyboard focus at the end of the last frame.
     pub(super) in_field: bool,
-    /// Document that was requested last, and its language.
+    /// Document for which results were last requested, and the language of their texts.
     pub(super) asked: Option<(Document, Language)>,
+    /// Key of the control over a year that was last requested.
     pub(super) asked_year: Option<YearKey>,
+    /// Key of the calendar of weather data that was last requested.
     pub(super) asked_weather: Option<CalendarKey>,
+    /// Key of the processed data that were last requested.
     pub(super) asked_form: Option<FormKey>,
+    /// Key of the map of interpolation schemes that was last requested.
     pub(super) asked_schemes: Option<SchemesKey>,
+    /// LID whose largest intensities were last requested.
     pub(super) asked_peaks: Option<Arc<LidFigures>>,
+    /// State of the rankings, except the results shown.
     pub(super) choosing: Choosing,
+    /// Computations that are due, i.e. still to be started.
     pub(super) due: Due,
+    /// Exports of tiles' numbers in progress.
     pub(super) export: Exports,
-    /// Results of the candidates of the comparison.
+    /// Candidates of the comparison, with their results.
     pub compare: Columns,
-    /// Messages of the window.
+    /// Messages to the user.
     pub toasts: Messages,
-    /// Files to be read once the catalogue is open.
+    /// Files to be read as soon as the catalogue is open: paths, grouping into products, and the stored import they
+    /// belong to.
     pub(super) waiting_files: Vec<(Vec<PathBuf>, Grouping, Option<KeptImport>)>,
-    /// Whether a file is being written, not only asked about.
+    /// Whether a file is being written.
     pub(super) writing: bool,
-    /// Writer of the session on disk, if the session is kept.
+    /// Writer of the session on disk; `None` if the session is not stored.
     pub(super) autosave: Option<Autosave>,
-    /// Last steps, for reports on faults.
+    /// History of the last commands, for reports on internal errors.
     pub(super) steps: Steps,
+    /// Internal errors that were reported.
     pub(super) faults: Faults,
+    /// Tiles of the tile area.
     pub(super) bench: Bench,
+    /// State of the plot of error against computing time.
     pub(super) accuracy_view: accuracy::State,
+    /// State of the section through a described system.
     pub(super) section_view: section::State,
+    /// State of the strip of a product's states.
     pub(super) states_view: states::State,
+    /// State of the calendar of weather data.
     pub(super) weather_view: calendar::State,
-    /// Cache of findings of the data check, by content.
+    /// Cache of findings of the data check, by content of the dataset.
     pub(super) examined: Examined,
-    /// Pictures of products.
+    /// Pictures of products for the gallery.
     pub gallery: Gallery,
-    /// Function that searches fonts for characters that the built-in fonts lack.
+    /// Function that searches the system's fonts for characters missing in the built-in fonts.
     pub find_fonts: FindFonts,
+    /// Characters missing in the built-in fonts.
     pub(super) missing_characters: Arc<MissingCharacters>,
+    /// Context of egui, by which jobs wake the window.
     pub(super) ctx: egui::Context,
+    /// Whether fonts and themes have been set in egui.
     pub(super) installed: bool,
+    /// Title that the window currently has.
     pub(super) shown_title: String,
+    /// Side panel and command palette that are open, with their first frames.
     pub(super) opened: Opened,
-    /// Language of the desktop.
+    /// Language of the desktop, for the setting that the window uses it.
     pub(super) desktop_language: Language,
 }
 
-/// Sheet and palette over the window, with the frame since which each is open: a key that was pressed before is not
-/// meant for it.
+/// Side panel and command palette, with the number of the frame in which each was opened or closed: keys of that frame
+/// must not be executed by it.
 #[derive(Default)]
 pub(super) struct Opened {
     sheet: (Option<Sheet>, u64),
@@ -123,7 +148,7 @@ pub(super) struct Opened {
 }
 
 impl Opened {
-    /// Records what is open in a frame; returns whether the sheet is another than before.
+    /// Records the state of a frame, given by its number. Returns whether the side panel has changed.
     pub(super) fn take(&mut self, state: &State, frame: u64) -> bool {
         let palette = state.palette.is_some();
         if self.palette.0 != palette {
@@ -136,25 +161,25 @@ impl Opened {
         another
     }
 
-    /// Whether the sheet was there before this frame.
+    /// Whether the side panel has not changed in this frame.
     pub(super) const fn sheet_before(&self, frame: u64) -> bool {
         self.sheet.1 < frame
     }
 
-    /// Whether the palette was there before this frame.
+    /// Whether the command palette has not changed in this frame.
     pub(super) const fn palette_before(&self, frame: u64) -> bool {
         self.palette.1 < frame
     }
 }
 
-/// Ends an undo step at the current document. What was undone before a new step must not be redone after it, which the
-/// undoer notices only when it is fed.
+/// Ends an undo step at the current document. The undo history must see the document first, so that steps undone before
+/// cannot be redone after the new one.
 pub(super) fn end_step(undoer: &mut Undoer<Document>, document: &Document) {
     undoer.feed_state(0.0, document);
     undoer.add_undo(document);
 }
 
-/// Returns an undo history that begins at this document.
+/// Returns an undo history that starts with this document.
 pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
     let mut undoer = Undoer::default();
     undoer.add_undo(document);
@@ -162,7 +187,7 @@ pub(super) fn fresh_undoer(document: &Document) -> Undoer<Document> {
 }
 
 impl App {
-    /// Creates a window that is not drawn yet.
+    /// Creates a window, without drawing it.
     pub fn new(services: Services, settings: Settings) -> Self {
         let state = State::new(settings);
         Self {
@@ -211,12 +236,13 @@ impl App {
         }
     }
 
-    /// Creates a window with a catalogue in memory and no file dialogs; nothing on disk is touched.
+    /// Creates a window for tests, with a catalogue in memory and without file dialogs; nothing on disk is read or
+    /// written.
     pub fn for_test(engine: Arc<dyn Engine>) -> Self {
         Self::with_shelf(engine, backend::ideals_shelf)
     }
 
-    /// Creates a window with the catalogue that `open` returns, and no file dialogs.
+    /// Creates a window for tests, with the catalogue that `open` returns and without file dialogs.
     pub fn with_shelf(engine: Arc<dyn Engine>, open: fn() -> Result<Arc<dyn Shelf>, AppError>) -> Self {
         Self::new(
             Services { open_catalogue: Arc::new(open), read: SourceFile::read, dialogs: Arc::new(NoDialogs), engine },
@@ -224,12 +250,12 @@ impl App {
         )
     }
 
-    /// Sets the window's language on this thread until the returned guard is dropped.
+    /// Sets the language of texts on this thread to that of the window, until the returned guard is dropped.
     pub(super) fn speak(&self) -> Speaking {
         speak(self.state.settings.language.language(self.desktop_language))
     }
 
-    /// Starts a job that wakes the window when it ends.
+    /// Starts a job in a lane; the window is woken when it ends.
     pub(super) fn start(&mut self, lane: Lane, work: impl FnOnce(&JobState) -> Outcome + Send + 'static) {
         let ctx = self.ctx.clone();
         self.jobs.start(lane, move || ctx.request_repaint(), work);
@@ -240,12 +266,12 @@ impl App {
         self.toasts.error(error.to_string());
     }
 
-    /// Whether a job is under way in a lane.
+    /// Whether a job is running in a lane.
     pub fn works_in(&self, lane: Lane) -> bool {
         self.jobs.busy(lane)
     }
 
-    /// Whether something is still being read or computed.
+    /// Whether anything is still being read or computed.
     pub fn busy(&self) -> bool {
         !self.jobs.views().is_empty() || !self.pending_changes.is_empty() || self.fill_due || self.lid_to.is_some()
     }

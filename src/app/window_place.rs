@@ -1,17 +1,18 @@
-//! Saved place of the window: values that no current desktop can show are dropped before it is opened.
+//! Saved position and zoom of the window: values that the current desktop cannot show are corrected.
 
 use super::disk::write_whole;
 use std::path::Path;
 
-/// Range of zoom factors that a window can be opened with; the program's own text sizes lie well within.
+/// Range of zoom factors with which a window can be opened; the text sizes of the program lie well within it.
 const ZOOM: std::ops::RangeInclusive<f32> = 0.2..=5.0;
 /// Minimum length of each side of a window that must lie on a monitor, so that it can be grabbed. \[px\]
 const LEAST_SHOWN: i64 = 64;
 
-/// Place and size of a window or monitor: left, top, width, height. \[px\]
+/// Rectangle of a window or monitor: left, top, width, height. \[px\]
 type Area = [i64; 4];
 
-/// Corrects the zoom factor in a saved window if it is out of range; what cannot be read stays as it is.
+/// Corrects the zoom factor in the saved state of the window, given by its file, if it is out of range; a file that
+/// cannot be read is not changed.
 pub(super) fn repair_saved(file: &Path) {
     let Ok(saved) = std::fs::read_to_string(file) else { return };
     if let Some(repaired) = with_sound_zoom(&saved) {
@@ -20,7 +21,8 @@ pub(super) fn repair_saved(file: &Path) {
     }
 }
 
-/// Returns a saved state with a zoom factor of 1 in place of one that is out of range.
+/// Returns the saved state with its zoom factor replaced by 1 if it is out of range; `None` if nothing is to be
+/// corrected.
 fn with_sound_zoom(saved: &str) -> Option<String> {
     const KEY: &str = "zoom_factor:";
     let start = saved.find(KEY)? + KEY.len();
@@ -30,7 +32,7 @@ fn with_sound_zoom(saved: &str) -> Option<String> {
         .then(|| format!("{}1.0{}", &saved[..start], &saved[start + length..]))
 }
 
-/// Whether enough of a window lies on one of the monitors.
+/// Whether enough of a window lies on one of the monitors, see [`LEAST_SHOWN`].
 fn is_shown(window: Area, monitors: &[Area]) -> bool {
     let overlap = |axis: usize, monitor: &Area| {
         let end = (window[axis] + window[axis + 2]).min(monitor[axis] + monitor[axis + 2]);
@@ -39,7 +41,7 @@ fn is_shown(window: Area, monitors: &[Area]) -> bool {
     monitors.iter().any(|monitor| (0..2).all(|axis| overlap(axis, monitor) >= LEAST_SHOWN.min(window[axis + 2])))
 }
 
-/// Moves a window to the first monitor if none shows it, because the one it was on is gone.
+/// Moves the window to the first monitor if it lies on none, because the monitor it was on is disconnected.
 pub(super) fn bring_on_screen(creation: &eframe::CreationContext<'_>) {
     let Some(window) = creation.winit_window() else { return };
     // Where the desktop alone places windows there is no position.

@@ -1,4 +1,4 @@
-//! Work that runs in jobs, and the results of jobs.
+//! Work that is executed in jobs, and the results of jobs.
 
 use super::changes::{Change, Looked, Reread};
 use super::compare::Part;
@@ -44,10 +44,10 @@ use std::time::{Duration, Instant};
 
 pub use crate::study::intake::ReadDataset;
 
-/// Time for which data of built-in products are computed before their order is determined again.
+/// Time for which data of built-in products are computed in a job before their order is determined again.
 const FILLING: Duration = Duration::from_millis(500);
 
-/// Picture for the clipboard: width, height, and red, green and blue of its pixels row by row.
+/// Picture for the clipboard: width and height \[px\], and red, green and blue of its pixels row by row.
 pub type Pixels = (usize, usize, Vec<u8>);
 
 /// Result of a job.
@@ -55,108 +55,109 @@ pub type Pixels = (usize, usize, Vec<u8>);
 pub enum Outcome {
     /// Catalogue that was opened.
     Opened(Result<Arc<dyn Shelf>, AppError>),
-    /// Product list.
+    /// Result of a search, for the list of products.
     Found(Result<Found, AppError>),
-    /// Products of the catalogue that match the palette's text.
+    /// Products of the catalogue that match the text of the command palette.
     Hits(Result<Found, AppError>),
-    /// Product, state and dataset of the selection, and sky and sun.
+    /// Product, state and dataset of the selection; and sky and sun.
     Scene(Result<LoadedSelection, AppError>, Result<Daylight, SkyKeyError>),
-    /// Year of shading control.
+    /// State that the control rule chooses for every step of a year.
     Year(Result<Year, StudyError>),
     /// Annual simulation of the room.
     Annual(Result<Box<Annual>, AppError>),
-    /// End of a ranking; its results were shown as they came.
+    /// End of a ranking, whose results have been shown during the computation.
     Ranked(Result<(), AppError>),
-    /// Weather file that hours are picked from.
+    /// Calendar of the hours of a weather file.
     Weather(Result<Box<Calendar>, StudyError>),
-    /// Weather file that was opened.
+    /// Path of a weather file that was opened.
     OpenedWeather(PathBuf),
-    /// LID of the first aperture.
+    /// Luminous intensity distribution (LID) of the first aperture.
     Lid(Result<LidFigures, AppError>),
-    /// Largest intensities of a LID.
+    /// Largest intensities of a LID, with this LID.
     Peaks(Arc<LidFigures>, Peaks),
-    /// Illuminances in the room.
+    /// Illuminances at the sensor points in the room.
     Room(Result<RoomFigures, AppError>),
-    /// Part of the results of a candidate, by its number.
+    /// Part of the results of a candidate of the comparison, by its number.
     Compared(u64, Box<Compared>),
-    /// Illuminances of the room's surfaces.
+    /// Illuminances on the room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
-    /// Data of one incident direction in another form.
+    /// Processed data (filtered or compressed) for one incident direction.
     DataForm(FormResult),
-    /// Map of interpolation schemes between the directions of the data.
+    /// Map of the interpolation scheme that applies at each incident direction between those of the data.
     Schemes(SchemesResult),
-    /// Error against run time.
+    /// Error of the results against computing time.
     Accuracy(Result<Accuracy, AppError>),
-    /// Effects of obstructions.
+    /// Effects of the obstructions on the illuminance of the apertures.
     Obstructions(ObstructionEffects),
-    /// Files that the user chose.
+    /// Paths of files that the user chose to open.
     Chosen(Result<Vec<PathBuf>, AppError>),
-    /// Path to write to.
+    /// Path that the user chose for writing; `None` if the dialog was cancelled.
     Target(PathUse, Result<Option<PathBuf>, AppError>),
-    /// Files that were read.
+    /// Import of the files that were read.
     Read(Box<Import>),
-    /// Import with its files in another arrangement; names of the products before, by their files.
+    /// Import with another grouping of its files into products, and the former names of the products by their files.
     Rearranged(Box<Import>, Vec<(Vec<String>, String)>),
-    /// Findings of the data check about a dataset.
+    /// Dataset, and the findings of the data check on it.
     Examined(Arc<Dataset>, Arc<Vec<Diagnosis>>),
-    /// Several results, in order.
+    /// Several results, to be taken over in this order.
     Several(Vec<Outcome>),
-    /// Imported product, identified by its files, with the requested repairs made: its datasets, their findings, and
-    /// the repairs; or the reason why not.
+    /// Identifiers of the files of an imported product, and this product with the requested repairs made, or the reason
+    /// why they cannot be made.
     Repaired(Vec<String>, Result<Box<Proposed>, AppError>),
-    /// System file that was read: its text and folder.
+    /// System file that was read: its text and its folder.
     ReadSystem(Result<(String, PathBuf), AppError>),
-    /// Computed state of a system, with the keys of all its states.
+    /// Keys of all states of a system, and one of them as computed by the virtual goniophotometer.
     Measured(Result<Box<(Vec<String>, Finished)>, AppError>),
-    /// Scene that was read.
+    /// Scene that was read, with its path.
     ReadScene(PathBuf, Result<Box<SceneFile>, AppError>),
-    /// Control curve that was read.
+    /// Control curve that was read: points of profile angle \[°\] and value.
     ReadCurve(Result<Vec<[f64; 2]>, AppError>),
-    /// Stored additions with these numbers, each with whether it is new in the catalogue; or the reason why none is
-    /// stored.
+    /// Indices of additions of this session, and their stored products, each with whether it is new in the catalogue;
+    /// or the reason why none was stored.
     Added(Vec<usize>, Result<Vec<(bool, Arc<Product>)>, AppError>),
-    /// Product that was looked up to be selected.
+    /// Product that was loaded to be selected.
     Choice(Result<Arc<Product>, AppError>),
-    /// Change of this session that was made in the catalogue, or reverted.
+    /// Index of a change of this session, whether it was made (`true`) or reverted in the catalogue, and the result of
+    /// that.
     Changed(usize, bool, Result<(), AppError>),
-    /// Product whose sheet is to be opened.
+    /// Product whose side panel is to be opened.
     Editing(Result<Looked, AppError>),
-    /// Change that replaces the data of a state by a file that was read.
+    /// Change that replaces the data of a state by those of a file that was read.
     ToReplace(Result<Change, AppError>),
     /// Differences found by reading the files of a product again.
     Reread(Result<Reread, AppError>),
-    /// Report on reading the folders of packages that are subscribed to.
+    /// Report on reading the subscribed folders of packages.
     Synced(Result<Report, AppError>),
-    /// Path of a chosen folder of packages to subscribe to, or the reason why it is not one.
+    /// Path of a folder of packages that the user chose for a subscription, or the reason why it is not valid.
     Folder(Result<String, String>),
     /// Collections and subscriptions.
     Sets(Result<Sets, AppError>),
-    /// Pictures of products.
+    /// Pictures of products for the gallery.
     Pictures(Vec<Made>),
     /// Deleted products.
     Deleted(Result<Vec<Deleted>, AppError>),
-    /// End of another change of the catalogue.
+    /// End of a change of the catalogue that is not one of the others.
     Stored(Result<(), AppError>),
-    /// End of storing the data of the chosen state in the catalogue.
+    /// End of computing and storing the dataset of the selected state.
     Provided(Result<(), AppError>),
-    /// Number of built-in states left to compute, after some more were stored.
+    /// Number of states of built-in products left to compute, after some were stored.
     Builtin(Result<usize, AppError>),
-    /// Path that is to be written to, and whether a file exists there.
+    /// Path that is to be written, and whether a file exists there.
     There(PathUse, PathBuf, bool),
     /// Preview of an export.
     Preview(Result<Preview, AppError>),
-    /// Picture of a tile for the clipboard.
+    /// Tile, and its picture for the clipboard.
     Copied(Tile, Result<Pixels, AppError>),
-    /// File that was written.
+    /// Path of a file that was written.
     Written(PathUse, Result<PathBuf, AppError>),
     /// Warning about a file that was written.
     Warning(String),
-    /// Fonts of the system by name, and characters that none of them has.
+    /// Fonts of the system by name, and characters missing in all of them.
     Fonts(Vec<(String, egui::FontData)>, Vec<char>),
 }
 
 impl Outcome {
-    /// Returns the outcome followed by a warning, if there is one.
+    /// Returns the result, followed by a warning if there is one.
     pub fn with_warning(self, warning: Option<String>) -> Self {
         match warning {
             Some(warning) => Self::Several(vec![self, Self::Warning(warning)]),
@@ -165,41 +166,41 @@ impl Outcome {
     }
 }
 
-/// Part of the results of a candidate.
+/// Part of the results of a candidate of the comparison.
 #[expect(clippy::large_enum_variant, reason = "one at a time, boxed on its way")]
 pub enum Compared {
-    /// Product, state and dataset, and sky and sun.
+    /// Product, state and dataset of the candidate; and sky and sun.
     Shelf(Result<LoadedSelection, AppError>, Result<Daylight, SkyKeyError>),
-    /// State and dataset of a system that is not a product of the catalogue, and sky and sun.
+    /// State and dataset of a candidate that is not a product of the catalogue; and sky and sun.
     Own(Result<(String, Arc<Dataset>), AppError>, Result<Daylight, SkyKeyError>),
-    /// LID of the first aperture.
+    /// Luminous intensity distribution (LID) of the first aperture.
     Lid(Result<LidFigures, AppError>),
-    /// Largest intensities of the LID.
+    /// Largest intensities of the LID, with this LID.
     Peaks(Arc<LidFigures>, Peaks),
-    /// Illuminances in the room.
+    /// Illuminances at the sensor points in the room.
     Room(Result<RoomFigures, AppError>),
-    /// Illuminances of the room's surfaces.
+    /// Illuminances on the room's surfaces.
     Surfaces(Result<SurfaceFigures, AppError>),
-    /// Year of shading control.
+    /// State that the control rule chooses for every step of a year.
     Year(Result<Year, StudyError>),
-    /// Figures of the dataset; `None` without a transmission.
+    /// Figures of the dataset; `None` for a dataset without transmission.
     Data(Option<DataFacts>),
-    /// Internal error.
+    /// Internal error in computing a part of the results.
     Failed(Part, String),
 }
 
-/// Product, state and dataset of the selection in the catalogue.
+/// Product, state and dataset of the selection, loaded from the catalogue.
 pub struct LoadedSelection {
     /// Selected product.
     pub product: Arc<Product>,
-    /// Key of the state, picked by the scene's control if the state is controlled.
+    /// Key of the state; if the selection is `controlled`, the one that the control rule of the scene chooses.
     pub state: String,
-    /// Dataset of the state; `None` while it is still to be computed.
+    /// Dataset of the state; `None` if it is still to be computed.
     pub dataset: Option<Arc<Dataset>>,
 }
 
-/// Computes data in advance, starting with the first of these products, until the order is to be determined again;
-/// returns the number of states left.
+/// Computes and stores missing datasets of products in advance, in the `order` of product keys, for the time
+/// [`FILLING`]. Returns the number of states left.
 pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState) -> Result<usize, AppError> {
     // A separate thread pool, so that visible results never wait behind this; one core stays free for the window.
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
@@ -214,7 +215,8 @@ pub(super) fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState
     }
 }
 
-/// Returns sky and sun of a scene, as they are and as seen from its first aperture.
+/// Returns sky and sun of a scene, the sky unobstructed and as seen from the first aperture. `base`: folder to which
+/// paths in the scene are relative.
 pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) -> Result<Daylight, SkyKeyError> {
     let (outside, sun) = outside_from_keys(&scene.sky, &scene.site, base)?;
     // What is wrong with boxes the room's tile says; what was withdrawn nobody looks at.
@@ -222,13 +224,14 @@ pub(super) fn daylight(scene: &SceneFile, base: &Path, progress: &dyn Progress) 
     Ok(Daylight { outside, seen, sun })
 }
 
-/// Computes the effects of a scene's obstructions.
+/// Computes the effects of a scene's obstructions on the illuminance of its apertures. `base`: as in [`daylight`].
 pub(super) fn obstructions(scene: SceneFile, base: &Path, progress: &dyn Progress) -> ObstructionEffects {
     let effects = obstruction_effects(&scene, base, progress).map_err(|error| error.to_string());
     (scene, effects)
 }
 
-/// Returns product, state and dataset of the selection.
+/// Returns product, state and dataset of a selection from the catalogue. `aperture`: index of the aperture whose
+/// control rule chooses the state; `base`: as in [`daylight`].
 pub(super) fn take_from_shelf(
     shelf: &dyn Shelf,
     selection: &Selection,
@@ -262,13 +265,14 @@ pub(super) fn take_from_shelf(
     Ok(LoadedSelection { product, state, dataset })
 }
 
-/// Saves the scene.
+/// Writes the text of a scene to a path. `made_from`: input files, which must not be overwritten.
 pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>, made_from: &[PathBuf]) -> Outcome {
     let written = text.map_err(AppError::from).and_then(|text| write_whole(path, text.as_bytes(), made_from));
     Outcome::Written(PathUse::SaveScene, written)
 }
 
-/// Writes the LID as a luminaire file.
+/// Writes a luminous intensity distribution (LID) as a luminaire file. `made_from`: input files, which must not be
+/// overwritten.
 pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine, made_from: &[PathBuf]) -> Outcome {
     let written = lid
         .ok_or(AppError::NoLid)

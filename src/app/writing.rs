@@ -1,4 +1,4 @@
-//! Files of the window: asking for paths, reading what was chosen, writing scene, luminaire, tiles and computed data.
+//! Files of the window: requesting paths, and writing scene, luminaire file, tiles and computed data.
 
 use super::catalogue_command::CatalogueCommand;
 use super::disk::write_whole;
@@ -14,7 +14,7 @@ use crate::texts::export as texts;
 use std::path::{Path, PathBuf};
 
 impl App {
-    /// Asks for files: in the path field at once, with the desktop's dialog beside it.
+    /// Requests files to open: shows the path field and the desktop's dialog.
     pub(super) fn ask_paths(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
@@ -22,7 +22,7 @@ impl App {
         self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open()));
     }
 
-    /// Asks for a folder: in the path field at once, with the desktop's dialog beside it.
+    /// Requests a folder to open: shows the path field and the desktop's dialog.
     pub(super) fn ask_folder(&mut self) {
         self.state.path.clear();
         self.state.sheet = Some(Sheet::Path(PathUse::Open));
@@ -30,6 +30,7 @@ impl App {
         self.start(Lane::Dialog, move |_| Outcome::Chosen(dialogs.open_folder(crate::texts::shell::DIALOG_FOLDER)));
     }
 
+    /// Requests a path to write to: shows the path field, with a proposed path, and the desktop's dialog.
     pub(super) fn ask_target(&mut self, what: PathUse) {
         let start = start_path(&self.state, what);
         self.state.path = start.display().to_string();
@@ -39,7 +40,7 @@ impl App {
         self.start(Lane::Dialog, move |_| Outcome::Target(what, dialogs.save(what, &start)));
     }
 
-    /// Writes to a path if there is no file yet; otherwise the sheet asks.
+    /// Writes to a path if there is no file yet; otherwise the user is asked whether to replace it.
     pub(super) fn write_new(&mut self, what: PathUse, path: PathBuf) {
         let path = with_ending(&self.state, what, path);
         if matches!(what, PathUse::Open | PathUse::ReplaceState | PathUse::Subscribe) {
@@ -60,6 +61,7 @@ impl App {
         });
     }
 
+    /// Writes to a path, or asks the user whether to replace the file that exists there (`there`).
     pub(super) fn take_there(&mut self, what: PathUse, path: PathBuf, there: bool) {
         if there {
             self.state.path = path.display().to_string();
@@ -70,19 +72,20 @@ impl App {
         }
     }
 
-    /// Stores the folder of a file that was just read or written, so that the next dialog begins there.
+    /// Stores the folder of a file that was read or written, so that the next dialog starts there.
     pub(super) fn remember_folder(&mut self, path: &Path) {
         if let Some(folder) = path.parent().filter(|folder| folder.is_absolute()) {
             self.state.settings.folder = Some(folder.to_owned());
         }
     }
 
-    /// Starts writing a file; a closing window waits until it is finished.
+    /// Starts a job that writes a file; a closing window waits until it is finished.
     fn start_writing(&mut self, work: impl FnOnce() -> Outcome + Send + 'static) {
         self.writing = true;
         self.start(Lane::Export, move |_| work());
     }
 
+    /// Executes the purpose of a path that the user has given: opens, replaces, subscribes or starts writing.
     pub(super) fn write(&mut self, what: PathUse, path: PathBuf) {
         self.state.sheet = None;
         self.state.replace = None;
@@ -132,13 +135,13 @@ impl App {
         }
     }
 
-    /// Requests a tile's numbers for the clipboard.
+    /// Requests the numbers of a tile for the clipboard, and shows the tile.
     pub(super) fn copy_tile(&mut self, tile: Tile) {
         self.export.ask_copy(tile);
         self.bring_up(tile);
     }
 
-    /// Writes the numbers that tiles gave since the last frame.
+    /// Takes over the numbers that tiles have returned, and starts writing what is due.
     pub(super) fn write_exports(&mut self) {
         self.take_numbers();
         if self.jobs.busy(Lane::Export) {

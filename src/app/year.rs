@@ -1,5 +1,5 @@
-//! Annual simulation in the window: its commands, the weather file as hours are picked from it, and the default year of
-//! a scene without one.
+//! Annual simulation in the window: its commands, the calendar of a weather file from which hours are chosen, and the
+//! default settings for a scene without any.
 
 use crate::compute::weather::{Closure, Record, Station};
 use crate::drawing::hour_map::HourMap;
@@ -16,49 +16,51 @@ use std::path::{Path, PathBuf};
 /// Command about the annual simulation.
 #[derive(Debug, Clone, PartialEq)]
 pub enum YearAct {
-    /// Compute the year of the current scene; a scene without one gets the default year first.
+    /// Compute the annual simulation of the current scene, which first gets default settings if it has none.
     Compute,
     /// Change the display settings of the annual simulation.
     Look(Look),
-    /// Show a step of the annual simulation in every tile; `true` while stepping with keys.
+    /// Show a step of the annual simulation, by its index, in every tile. `true` if the user steps with keys.
     Show(usize, bool),
-    /// Set the weather file: of the scene's year if it has one, and of its sky.
+    /// Set the weather file of the scene's sky, and of its annual simulation if it has settings for one.
     Weather(PathBuf),
-    /// Set the weather file of the scene's year alone.
+    /// Set the weather file of the scene's annual simulation alone.
     WeatherOfYear(PathBuf),
-    /// Set the sky to a record of the weather file; `true` while stepping with keys.
+    /// Set the sky to the record of the weather file at a date and time. `true` if the user steps with keys.
     Pick(DateTime, bool),
 }
 
 impl YearAct {
-    /// Whether the change of the document is an undo step of its own. Hours that are stepped through are not.
+    /// Whether the change of the document is a separate undo step; stepping with keys is not.
     pub const fn is_step(&self) -> bool {
         !matches!(self, Self::Look(_) | Self::Show(_, true) | Self::Pick(_, true))
     }
 }
 
-/// Weather file as hours are picked from it.
+/// Calendar of a weather file, from which hours are chosen.
 #[derive(Debug, Clone)]
 pub struct Calendar {
-    /// Key of the weather file: its name in scenes, folder and reading options.
+    /// Key of the calendar: weather file and reading options.
     pub key: CalendarKey,
     /// Station of the weather file.
     pub station: Station,
-    /// Test of the file's clock, if there is one.
+    /// Test of the file's clock against its irradiances; `None` if there is none.
     pub closure: Option<Closure>,
     /// Codes of the file's warnings.
     pub warnings: Vec<&'static str>,
-    /// Direct normal and diffuse horizontal values by hour.
+    /// Maps of direct normal and of diffuse horizontal illuminance \[lx\] or irradiance \[W/m²\], according to the
+    /// file, for every hour.
     pub maps: [HourMap; 2],
     /// Start of every record in local standard time, in the file's order.
     pub starts: Vec<DateTime>,
 }
 
-/// Key of a calendar: the weather file's name, the folder that it starts from, and how the file is read.
+/// Key of a calendar: name of the weather file, folder to which it is relative, and the two reading options (source of
+/// illuminances, offset of the sun's position).
 pub type CalendarKey = (PathBuf, PathBuf, LightKey, OffsetKey);
 
 impl Calendar {
-    /// Reads the weather file.
+    /// Reads the weather file of a key.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read or its clock cannot be tested.
@@ -76,12 +78,13 @@ impl Calendar {
     }
 }
 
-/// Returns the weather file of a scene: of its sky, else of its year.
+/// Returns the weather file of a scene: that of its sky, else that of its annual simulation; `None` if it has none.
 pub fn weather_of(scene: &SceneFile) -> Option<&Path> {
     scene.sky.weather.as_deref().or_else(|| scene.year.as_ref().map(|year| &*year.weather))
 }
 
-/// Returns the weather file of the scene's year; without a year, that of the nearest place.
+/// Returns the weather file of the scene's annual simulation; if it has no settings for one, that of its sky, else the
+/// built-in one of the nearest station.
 pub fn weather_of_year(scene: &SceneFile) -> PathBuf {
     if let Some(keys) = &scene.year {
         return keys.weather.clone();
@@ -93,8 +96,8 @@ pub fn weather_of_year(scene: &SceneFile) -> PathBuf {
     })
 }
 
-/// Returns the default year of a scene without one: its weather file, an observer in the middle of the room who faces
-/// the façade, and default electric lighting.
+/// Returns default settings of an annual simulation for a scene: its weather file, an observer in the middle of the
+/// room who faces the façade, and default electric lighting.
 pub fn usual_year(scene: &SceneFile) -> YearKeys {
     YearKeys {
         weather: weather_of_year(scene),
@@ -112,13 +115,14 @@ pub fn usual_year(scene: &SceneFile) -> YearKeys {
     }
 }
 
-/// Returns the default observer: half way into the room, at the eye height of a seated person, facing the façade.
+/// Returns the default observer: in the middle of the room, at the eye height of a seated person (1.2 m), facing the
+/// façade.
 pub fn usual_eye(scene: &SceneFile) -> EyeKeys {
     let room = &scene.room;
     EyeKeys { point: [0.5 * room.width, 0.5 * room.depth, 1.2_f64.min(room.height)], direction: [0.0, -1.0, 0.0] }
 }
 
-/// Returns the default electric lighting, as usual over desks.
+/// Returns the default electric lighting, as for desks: 8 W/m², dimmed to 500 lx.
 pub const fn usual_lamps() -> LightingKeys {
     LightingKeys {
         power: 8.0,
@@ -133,7 +137,8 @@ pub const fn usual_lamps() -> LightingKeys {
     }
 }
 
-/// Sets the sky of a scene to a record of a weather file; its turbidity, obstruction and skyline stay.
+/// Sets the sky of a scene to the record of a weather file at a date and time; turbidity, obstruction and skyline of
+/// the sky are not changed.
 pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
     let year = scene.year.as_ref().filter(|year| year.weather == weather);
     let same = scene.sky.weather.as_deref() == Some(weather);
@@ -158,7 +163,7 @@ pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
     };
 }
 
-/// Returns place and clock of a station as text.
+/// Returns name, coordinates and data source of a weather station as text.
 pub fn station_words(station: &Station) -> String {
     let place = crate::study::scene_words::coordinates(station.latitude, station.longitude);
     let name = if station.name.is_empty() { fixed(station.elevation, 0) } else { station.name.clone() };

@@ -7,14 +7,15 @@ use crate::texts::import as text;
 /// Question about a product made from files.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Ambiguity {
-    /// Files taken for states of one product because of numbers in their names, and for no other reason.
+    /// Files that were grouped as states of one product only because of numbers in their names.
     NumbersAlone,
-    /// File kept separate although its name differs from those of these other files by a number alone.
+    /// File that became a product of its own although its name differs from those of these other files by a number
+    /// alone.
     PerhapsStates(Vec<String>),
 }
 
 impl Ambiguity {
-    /// Returns the question in one sentence.
+    /// Returns the question to the user in one sentence.
     pub fn question(&self) -> String {
         match self {
             Self::NumbersAlone => text::ASK_NUMBERS.into(),
@@ -37,23 +38,26 @@ pub(super) fn speaks_of_slats(text: &str) -> bool {
         .any(|word| word == "ven" || MOVING.iter().any(|known| word.starts_with(known)))
 }
 
-/// Returns the hemispherical transmittance of a file's system; `None` for several datasets or no transmission.
+/// Returns the hemispherical transmittance of the system in a file; `None` if the file has several datasets or no
+/// transmission.
 fn light(file: &SourceFile) -> Option<f64> {
     let [dataset] = file.datasets.as_slice() else { return None };
     let visible = &dataset.visible;
     visible.transmission_front.as_ref().or(visible.transmission_back.as_ref()).map(|btdf| btdf.tau_hemispherical())
 }
 
-/// Trend of the transmittance as slats turn away from the horizontal.
+/// Trend of the hemispherical transmittance over the files of a family, by rising number in their names, which may be
+/// the slat angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Trend {
-    /// Transmittance that falls from step to step, as between slats.
+    /// Transmittance that falls from step to step, as of slats that close.
     Falls,
-    /// Transmittance that rises from step to step, as through fabric of increasing openness.
+    /// Transmittance that rises from step to step, as of fabrics with increasing openness.
     Rises,
     Neither,
 }
 
+/// Returns the trend of the hemispherical transmittance over the absolute value of the number in each file's name.
 fn trend(files: &[&SourceFile], family: &[(usize, f64)]) -> Trend {
     let mut steps: Vec<(f64, f64)> = Vec::new();
     for (place, angle) in family {
@@ -86,8 +90,9 @@ fn names_contain_angles(files: &[&SourceFile], family: &[(usize, f64)]) -> bool 
     all && names.iter().any(|name| *name != names[0])
 }
 
-/// Whether anything besides numbers in their names confirms that files are states of one product. `skeleton`: common
-/// part of the names; `marked`: whether a word in them calls the number an angle.
+/// Whether anything besides numbers in their names confirms that files are states of one product. `family`: index of
+/// each file and the number in its name; `skeleton`: common part of the names; `marked`: whether a word in the names
+/// identifies the number as an angle.
 pub(super) fn confirmed(files: &[&SourceFile], family: &[(usize, f64)], skeleton: &str, marked: bool) -> bool {
     let moving = |place: usize| {
         let file = files[place];

@@ -1,7 +1,8 @@
 //! Built-in products: two ideal systems without a description, and those of the descriptions under `assets/systems`.
 //!
-//! A file gets all of them when it is opened, with the figures of a table that comes with the program. Their data are
-//! computed at their first use, by layers above ([`Catalogue::to_compute`], [`Catalogue::put_state`]).
+//! A catalogue file gets all of them when it is opened, with the figures (such as τ) of a table that comes with the
+//! program. Their data are computed at their first use, by layers above ([`Catalogue::to_compute`],
+//! [`Catalogue::put_state`]).
 
 use super::described::{METHODS, method, product_of, with_builtins};
 use super::history::{RESTORED, note};
@@ -20,16 +21,17 @@ use rusqlite::{Connection, OptionalExtension, Transaction, TransactionBehavior};
 use std::collections::{HashMap, HashSet};
 use std::sync::LazyLock;
 
-/// Version of the built-in products, raised whenever they change otherwise than by their descriptions. In a file with a
-/// lower number all of them are replaced.
+/// Version of the built-in products, raised whenever they change otherwise than by their descriptions. In a catalogue
+/// file with a lower number all of them are replaced.
 pub const BUILTIN_VERSION: i64 = 4;
-/// Error target of the built-in products, absolute in τ and ρ.
+/// Error target when data of built-in products are computed: absolute error of transmittance τ and reflectance ρ.
 pub const BUILTIN_ERROR: f64 = 0.003;
-/// Ending of the names of description files.
+/// End of the names of description files.
 const SYSTEM_SUFFIX: &str = ".system.toml";
 
-/// Figures of all states, in the form of [`crate::formats::figures_table`]. Written by `cfs catalogue build --table
-/// assets/builtin-figures.csv` on a new catalogue; a test fails when that is due.
+/// Table of the figures (such as τ) of all states of built-in products, as CSV in the format of
+/// [`crate::formats::figures_table`]. Written by `cfs catalogue build --table assets/builtin-figures.csv` on a new
+/// catalogue; a test fails when that is due.
 pub const TABLE: &str = include_str!("../../assets/builtin-figures.csv");
 
 /// Keys of the ideal systems, which have no description.
@@ -82,12 +84,12 @@ fn ideals() -> Vec<(NewProduct, Vec<Dataset>)> {
     ]
 }
 
-/// Returns the rank of a built-in description, by its place in the list; the ideal systems precede all.
+/// Returns the position of a built-in description in the order of the catalogue; the ideal systems precede all.
 fn rank(name: &str) -> i64 {
     100 + SYSTEMS.iter().position(|(file, _)| *file == name).unwrap_or(SYSTEMS.len()) as i64
 }
 
-/// Stores a product in place of its older version and of another process's copy.
+/// Stores a built-in product in place of its older version, and of a copy that another process has stored meanwhile.
 fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE builtin = 1 AND key = ?", [&record.product.key])?;
     record.product.builtin = true;
@@ -95,7 +97,7 @@ fn put(tx: &Transaction<'_>, mut record: Record, rank: i64) -> Result<(), Catalo
     store::insert(tx, &record, rank)
 }
 
-/// Returns the method by which built-in products are computed, as a text.
+/// Returns a text on the method by which the data of a built-in product are computed, for its provenance.
 pub fn builtin_method(file: &SystemFile) -> String {
     method(&file.system, BUILTIN_ERROR, [front_basis().len(); 2])
 }
@@ -105,15 +107,15 @@ pub fn key_of_builtin(name: &str) -> &str {
     name.strip_suffix(SYSTEM_SUFFIX).unwrap_or(name)
 }
 
-/// Returns a hash of everything that the data of a built-in product are computed from: its description with all layers
-/// in its own text, the version of the methods, the error target.
+/// Returns a hash of everything on which the data of a built-in product depend: its description with the text of all
+/// layers, the version of the methods, and the error target.
 pub fn fingerprint(description: &str) -> String {
     let all = format!("{description}\0methods {METHODS}\0error {BUILTIN_ERROR}");
     blake3::hash(all.as_bytes()).to_hex()[..16].to_owned()
 }
 
-/// Described products by the names of their files, with the figures of the table and without data. A description that
-/// changed since the table was written has no figures: better none than wrong ones.
+/// Built-in products with a description, by the names of their description files; with the figures of the table and
+/// without data. A product whose description changed since the table was written has no figures.
 ///
 /// # Panics
 /// Never: the tests read the table and every description.
@@ -160,8 +162,8 @@ pub(super) fn is_builtin(key: &str) -> bool {
     IDEALS.contains(&key) || PRODUCTS.iter().any(|(_, product)| product.key == key)
 }
 
-/// Whether the part of a built-in product that results depend on differs from the version in this program. `false` for
-/// a product of another program's description, which cannot be judged.
+/// Whether anything in a stored built-in product on which results depend differs from the version in this program.
+/// `false` for a product whose description this program does not have.
 pub(super) fn differs(product: &Product) -> bool {
     PRODUCTS.iter().map(|(_, own)| own).any(|own| {
         own.provenance.source_hash == product.provenance.source_hash
@@ -175,7 +177,7 @@ pub(super) fn differs(product: &Product) -> bool {
     })
 }
 
-/// Whether a damaged row belongs to a built-in product. The mark that says so may itself be damaged.
+/// Whether a damaged row of the database belongs to a built-in product. The column that says so may itself be damaged.
 pub(super) fn is_row_of_builtin(db: &Connection, id: i64) -> Result<bool, CatalogueError> {
     let (builtin, rank, key): (bool, i64, Vec<u8>) = db
         .prepare_cached("SELECT builtin, rank, CAST(key AS BLOB) FROM product WHERE id = ?")?
@@ -184,7 +186,8 @@ pub(super) fn is_row_of_builtin(db: &Connection, id: i64) -> Result<bool, Catalo
     Ok((builtin && ranked) || ((builtin || ranked) && str::from_utf8(&key).is_ok_and(is_builtin)))
 }
 
-/// Returns the names of the built-in descriptions whose products in the file are missing or of another description.
+/// Returns the file names of the built-in descriptions whose products are missing in the catalogue file, or were made
+/// from another version of the description.
 fn missing(db: &Connection) -> Result<Vec<&'static str>, CatalogueError> {
     let mut ask = db.prepare_cached("SELECT source_hash FROM product WHERE builtin = 1")?;
     let there: HashSet<String> = ask.query_map([], |row| row.get(0))?.collect::<Result<_, _>>()?;
@@ -217,9 +220,9 @@ fn is_due(db: &Connection) -> Result<bool, CatalogueError> {
                 || db.query_row(bare, [], |row| row.get(0))?)))
 }
 
-/// Adds the built-in products of this program that a file lacks, in one transaction: with their figures, and without
-/// data, which are computed at their first use. Removes the products of an older program. Keeps the user's rows and
-/// favourites. Leaves a file that a newer program filled as it is.
+/// Adds the built-in products of this program that a catalogue file lacks, in one transaction: with their figures, and
+/// without data, which are computed at their first use. Removes the products of an older program, and preserves the
+/// user's products and favourites. Leaves a file that a newer program filled unchanged.
 pub(super) fn renew(catalogue: &mut Catalogue) -> Result<(), CatalogueError> {
     if !is_due(&catalogue.db)? {
         return Ok(());
@@ -308,7 +311,8 @@ fn put_missing(tx: &Transaction<'_>, ideals: Vec<Record>) -> Result<(), Catalogu
     store::sweep(tx)
 }
 
-/// Adds missing figures to the states of an older file's product that was computed from the same description.
+/// Adds missing figures of the transmitted light to the states of a built-in product that an older program stored from
+/// the same description.
 fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueError> {
     let mut ask = tx.prepare_cached(
         "SELECT s.product, s.position FROM state s JOIN product p ON p.id = s.product
@@ -330,7 +334,7 @@ fn light_up(tx: &Transaction<'_>, product: &Product) -> Result<(), CatalogueErro
     Ok(())
 }
 
-/// Returns the version of the built-in products in the file; 0 without any.
+/// Returns the version of the built-in products that is stored in the catalogue file; 0 if there is none.
 fn version(db: &Connection) -> Result<i64, CatalogueError> {
     let text: Option<String> =
         db.query_row("SELECT value FROM meta WHERE key = 'builtin_version'", [], |row| row.get(0)).optional()?;

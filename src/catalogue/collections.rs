@@ -1,10 +1,10 @@
-//! Collections: sets of products that the user makes and names. A product may be in any number of them; a collection is
-//! there as long as something is in it.
+//! Collections: sets of products that the user makes and names. A product may be in any number of them; a collection
+//! exists as long as it contains a product.
 
 use super::{Catalogue, CatalogueError};
 use rusqlite::Connection;
 
-/// Collection of products.
+/// Collection of products, made and named by the user.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Collection {
     /// Name of the collection.
@@ -13,15 +13,16 @@ pub struct Collection {
     pub products: Vec<String>,
 }
 
-/// Removes a product from all collections when it is removed permanently, because another one may get its key.
+/// Removes a product from all collections. It is called when the product is removed permanently, because another one
+/// may get its key.
 pub(super) fn leave_all(db: &Connection, key: &str) -> Result<(), CatalogueError> {
     db.execute("DELETE FROM collection WHERE product_key = ?", [key])?;
     Ok(())
 }
 
 impl Catalogue {
-    /// Adds products to a collection (`put`), or removes them from it; all in one step. Products that are already as
-    /// requested stay so.
+    /// Adds products to a collection (`put`), or removes them from it, all in one transaction. Products that are
+    /// already in it, or not in it, are unchanged.
     ///
     /// # Errors
     /// Returns an error if a product does not exist, or the collection has no name; nothing changes then.
@@ -46,7 +47,7 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Returns all collections by name, with the visible products in them.
+    /// Returns all collections by name, each with those of its products that are not hidden.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.

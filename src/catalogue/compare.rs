@@ -7,14 +7,14 @@ use crate::formats::dataset_blob::decode;
 use crate::formats::package::{Package, PackageProduct, PackageState};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Differences between two packages. All lists are empty if they hold the same.
+/// Differences between two packages of products. All lists are empty if both have the same content.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct PackageDiff {
-    /// Keys of products that only the first holds.
+    /// Keys of the products that only the first package contains.
     pub only_first: Vec<String>,
-    /// Keys of products that only the second holds.
+    /// Keys of the products that only the second package contains.
     pub only_second: Vec<String>,
-    /// Products that both hold and that differ.
+    /// Products that both packages contain with different content.
     pub changed: Vec<ProductDiff>,
 }
 
@@ -23,31 +23,34 @@ pub struct PackageDiff {
 pub struct ProductDiff {
     /// Key of the product.
     pub key: String,
-    /// Fields that differ beside the states: name, first value, second value.
+    /// Fields of the product, other than its states, that differ: name of the field, value in the first package, value
+    /// in the second.
     pub fields: Vec<(String, String, String)>,
-    /// Keys of states that only the first holds.
+    /// Keys of the states that only the first package contains.
     pub only_first: Vec<String>,
-    /// Keys of states that only the second holds.
+    /// Keys of the states that only the second package contains.
     pub only_second: Vec<String>,
-    /// States of both whose data differ.
+    /// States that both packages contain with different data.
     pub states: Vec<StateDiff>,
 }
 
-/// Differences between the data of a state in two packages.
+/// Differences between the datasets of one state in two packages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateDiff {
     /// Key of the state.
     pub key: String,
-    /// Hashes of the two datasets.
+    /// Hashes of the two datasets, of the first and the second package.
     pub hashes: [String; 2],
-    /// Hemispherical transmittances of both, outside to inside; `None` where a dataset holds no transmission.
+    /// Hemispherical transmittances τ of both datasets, from outside to inside; `None` where a dataset has no
+    /// transmission.
     pub tau_hemispherical: [Option<f64>; 2],
-    /// Largest difference of τ over incident directions every 10° of θ and 30° of φ; `None` unless both transmit.
+    /// Largest absolute difference of the transmittance τ between the two datasets, over incident directions every 10°
+    /// of θ and 30° of φ; `None` unless both have a transmission.
     pub tau_change: Option<f64>,
 }
 
 impl PackageDiff {
-    /// Whether both packages hold the same.
+    /// Whether both packages have the same content.
     pub fn is_same(&self) -> bool {
         self.only_first.is_empty() && self.only_second.is_empty() && self.changed.is_empty()
     }
@@ -82,6 +85,8 @@ fn by_key(package: &Package) -> Result<BTreeMap<&str, &PackageProduct>, Catalogu
     Ok(map)
 }
 
+/// Compares the two versions of a product, `a` of the first package and `b` of the second: all fields, the list of
+/// states and their data.
 fn diff_products(
     a: &PackageProduct,
     b: &PackageProduct,
@@ -151,6 +156,7 @@ fn diff_products(
     Ok(diff)
 }
 
+/// Compares the datasets of a state, `a` of the first package and `b` of the second.
 fn diff_states(
     a: &PackageState,
     b: &PackageState,
@@ -182,20 +188,21 @@ fn largest_change(a: &Btdf, b: &Btdf) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Two packages merged into one.
+/// Two packages merged into one, with a report on products that both contain.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Merged {
-    /// All products, by key. Apart from renamed keys the content does not depend on the order of the two packages.
+    /// Merged package with all products, by key. Apart from renamed keys its content does not depend on the order of
+    /// the two packages.
     pub package: Package,
-    /// Keys that both packages held with the same content.
+    /// Keys of the products that both packages contain with the same content.
     pub same: Vec<String>,
-    /// Products of the second package that were given a new key, because the first holds another product of theirs: old
-    /// key, new key.
+    /// Products of the second package that got a new key, because the first package contains a different product with
+    /// the same key: old key, new key.
     pub renamed: Vec<(String, String)>,
 }
 
-/// Joins two packages: products of the same key and content become one, those of the same key and other content are
-/// both kept, the second one's under the first free key of KEY-2, KEY-3, …
+/// Merges two packages: products of the same key and content become one; of products with the same key and different
+/// content both stay, that of the second package under the first free key of KEY-2, KEY-3, ….
 ///
 /// # Errors
 /// Returns an error if keys are not distinct within a package.
@@ -225,8 +232,8 @@ pub fn merge_packages(first: &Package, second: &Package) -> Result<Merged, Catal
     Ok(Merged { package: Package { products, datasets }, same, renamed })
 }
 
-/// Returns the first of KEY-2, KEY-3, … that is free, or under which the first package holds this very product since an
-/// earlier merge.
+/// Returns the first of KEY-2, KEY-3, … that is free, or under which the first package contains this same product since
+/// an earlier merge.
 fn free_key(
     key: &str,
     product: &PackageProduct,

@@ -8,24 +8,26 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// Connection to a catalogue. It can move between threads; for use from several threads open one each.
+/// Connection to the database file of a catalogue. It can move between threads; several threads open one each.
 #[derive(Debug)]
 pub struct Catalogue {
     pub(super) db: Connection,
     /// Datasets used most recently, decoded, newest at the end.
     pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
-    /// Computed states that cannot be kept where the file lies, by the keys of product and state.
+    /// Computed datasets that cannot be stored because the file is read-only, with the keys of product and state.
     pub(super) held: RefCell<Vec<([String; 2], Arc<Dataset>)>>,
-    /// Search index, with the state of the file that it was made from.
+    /// Search index, with the revision of the database from which it was made.
     pub(super) index: RefCell<Option<(Stamp, Arc<Index>)>>,
     /// Keys of the built-in products that were damaged, and that this connection has restored.
     pub(super) restored: RefCell<Vec<String>>,
 }
 
-/// State of a file as one connection sees it: changes of others (`PRAGMA data_version`), and its own.
+/// Revision of the database as one connection sees it: counters of changes by others (`PRAGMA data_version`) and by
+/// itself.
 pub(super) type Stamp = (i64, u64);
 
 impl Catalogue {
+    /// Creates the catalogue connection for an open database, with empty caches.
     pub(super) fn of(db: Connection) -> Self {
         // Verifying one product takes more statements than are kept by default.
         db.set_prepared_statement_cache_capacity(64);
@@ -38,7 +40,7 @@ impl Catalogue {
         }
     }
 
-    /// Begins a change. Immediate: it waits for another writer at the start, not in the middle.
+    /// Begins a write transaction. It is immediate: it waits for another writer at its start, not in the middle.
     pub(super) fn change(&mut self) -> Result<Transaction<'_>, CatalogueError> {
         Ok(self.db.transaction_with_behavior(TransactionBehavior::Immediate)?)
     }

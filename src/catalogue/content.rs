@@ -1,9 +1,10 @@
-//! Content of a dataset without its names: identifies the same data under other names and in other files.
+//! Content of a dataset without its texts: identifies the same data under other names and in other files.
 
 use crate::compute::btdf::Dataset;
 use crate::formats::dataset_blob::{content_hash, encode_with_wordless};
 
-/// Returns the hash of a dataset's functions and figures, without any of its texts: 64 hexadecimal digits.
+/// Returns the hash of a dataset's BSDF data and figures, without any of its texts, so that renamed data have the same
+/// hash: 64 hexadecimal digits.
 pub fn content_of(dataset: &Dataset) -> String {
     let [_, wordless] = encode_with_wordless(dataset);
     content_hash(&wordless)

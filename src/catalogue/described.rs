@@ -1,4 +1,4 @@
-//! Described systems as products: source of the data, names of the states, control curve.
+//! Products made from system descriptions: provenance, names of the states, control curve.
 
 use super::systems::{blind_of, builtin_system};
 use super::{CurvePoint, NewProduct, Origin, Provenance, StateName};
@@ -14,15 +14,18 @@ use crate::compute::system::{SystemDescription, SystemKind};
 use crate::formats::system_toml::{self, EACH_STATE, MOST_NESTED, SystemFile};
 use std::f64::consts::FRAC_PI_2;
 
-/// Elevation to which redirecting slats send the sun: flat enough to reach deep into a room, steep enough to stay on
-/// the ceiling. \[rad\]
+/// Elevation to which redirecting slats send direct sunlight: flat enough to reach deep into a room, steep enough to
+/// arrive at the ceiling. \[rad\]
 const ELEVATION: f64 = 0.611;
-/// Step of the curves over the profile angle. \[°\]
+/// Step in profile angle of the computed control curves. \[°\]
 const STEP: u32 = 5;
 
-/// Returns the product data for the datasets of a described system. `text`: text of the description, whose hash
-/// represents the inputs; `method`: method by which the datasets were computed. The product keeps the description that
-/// the datasets carry, which holds the layers of a stack; without one the text unchanged.
+/// Returns the product data (name, provenance, states, control curve) for datasets that were computed from a system
+/// description. `text`: text of the description, whose hash represents the inputs; `method`: text on the method of
+/// computation.
+///
+/// The product stores the description that the datasets carry, which contains the layers of a stack; if they carry
+/// none, `text` unchanged.
 pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dataset]) -> NewProduct {
     let system = &file.system;
     NewProduct {
@@ -46,7 +49,8 @@ pub fn product_of(file: &SystemFile, text: &str, method: String, datasets: &[Dat
     }
 }
 
-/// Returns the description that all datasets share, each being a state of it; `None` where one has another or none.
+/// Returns the description from which all datasets were computed, each as one of its states; `None` where a dataset has
+/// another description or none.
 pub(super) fn common_description(datasets: &[Dataset]) -> Option<String> {
     let mut all = datasets.iter().map(|dataset| {
         let own = dataset.described.as_ref()?;
@@ -56,7 +60,8 @@ pub(super) fn common_description(datasets: &[Dataset]) -> Option<String> {
     all.all(|other| other == Some(first)).then(|| first.clone())
 }
 
-/// Returns the description that belongs to a dataset of a product. Stacks of older catalogues name built-in files.
+/// Returns the description of one state of a product, with the text of all its layers; `None` without a readable one.
+/// `system`: description that the product stores; stacks of older catalogues refer to built-in files in it.
 pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedState> {
     if system.is_empty() {
         return None;
@@ -64,8 +69,8 @@ pub(super) fn described_state(system: &str, state: &str) -> Option<DescribedStat
     system_toml::described(&with_builtins(system, 0)?, state)
 }
 
-/// Returns the normal–normal transmittance by the description itself; `None` where it cannot be read or names layers
-/// that only its author has.
+/// Returns the normal–normal transmittance computed from the description, without BSDF data; `None` where the
+/// description cannot be read, or refers to layers that are not contained in it.
 pub(super) fn view(described: &DescribedState) -> Option<f64> {
     let model = optical_model(&described.text, &described.state, 0)?;
     Some(model.straight(Dir::from_unit(glam::DVec3::Z), Side::Front).clamp(0.0, 1.0))
@@ -84,7 +89,8 @@ fn optical_model(text: &str, state: &str, depth: usize) -> Option<Box<dyn Optica
     Some(Box::new(Stack::new(layers?)))
 }
 
-/// Returns a built-in description with its layers in its own text, as its data carry it.
+/// Returns a description into which the texts of all layers are inserted that are built-in files; `None` if a layer
+/// cannot be found. `depth`: level of nesting so far.
 pub(super) fn with_builtins(text: &str, depth: usize) -> Option<String> {
     system_toml::self_contained(text, &mut |source| match source {
         LayerSource::File(name) if depth < MOST_NESTED => with_builtins(builtin_system(name)?.1, depth + 1),
@@ -96,15 +102,16 @@ pub(super) fn with_builtins(text: &str, depth: usize) -> Option<String> {
 /// data stored by an older program are not mistaken for current ones.
 pub const METHODS: u32 = 3;
 
-/// Returns the method of a described system as a text: the program, its method, the settings.
+/// Returns a text on the method by which a described system was computed, for its provenance: program version, model,
+/// error target (absolute in τ and ρ), numbers of incident and emergent cells.
 pub fn method(system: &SystemDescription, error: f64, [incident, emergent]: [usize; 2]) -> String {
     let version = env!("CARGO_PKG_VERSION");
     let words = system.family().method();
     format!("Numerical goniophotometer of cfs {version}: {words}; error target {error}, {incident} × {emergent} cells")
 }
 
-/// Creates the dataset of a computed state, with what is known about its quality. `error`: error target of the
-/// computation.
+/// Creates the dataset of a computed state, with findings that state the reached quality. `visible`: computed BSDF
+/// data; `error`: error target of the computation, absolute in τ and ρ.
 pub fn described_dataset(file: &SystemFile, state: String, visible: Band, quality: &Quality, error: f64) -> Dataset {
     let system = &file.system;
     let reciprocity = match quality.reciprocity {
@@ -134,11 +141,11 @@ pub fn described_dataset(file: &SystemFile, state: String, visible: Band, qualit
     }
 }
 
-/// Beginning of the text of [`described_dataset`] about the error that was reached.
+/// Beginning of the words in a finding of [`described_dataset`] that state the reached error.
 const ERROR_WORDS: &str = "estimated error of τ and ρ at most ";
 
-/// Returns the absolute uncertainty of a dataset's transmittances: 0 for a definition, the error that was reached for
-/// computed data; `None` where the data do not state it, as measured ones.
+/// Returns the absolute uncertainty of a dataset's transmittances τ: 0 for ideal systems, the reached error for
+/// computed data; `None` where the data do not state it, such as measured ones.
 pub fn stated_error(dataset: &Dataset) -> Option<f64> {
     let transmission = dataset.transmission()?;
     if matches!(transmission.scattered, None | Some(Scattered::Lambert(_))) && dataset.described.is_none() {
@@ -157,8 +164,9 @@ fn state_name(dataset: &Dataset) -> StateName {
     }
 }
 
-/// Returns the control curve of slats for the key of a rule: `cut-off` blocks the sun, `retro` reflects it back,
-/// `redirect` sends it to the ceiling; empty for other keys. Values are limited to the range of the states.
+/// Returns the control curve of a venetian blind, slat tilt over the profile angle of the sun, for the key of a rule:
+/// `cut-off` just blocks direct sun, `retro` reflects it back towards the sun, `redirect` sends it to the ceiling;
+/// empty for other keys. Tilts are limited to the range of the blind's states.
 pub fn control_curve(rule: &str, blind: &Venetian) -> Vec<CurvePoint> {
     let range = blind.angles.iter().fold([FRAC_PI_2, -FRAC_PI_2], |[low, high], &a| [low.min(a), high.max(a)]);
     let Some(section) = SlatRow::of(blind) else { return Vec::new() };

@@ -7,7 +7,7 @@ use super::{Catalogue, CatalogueError, NewProduct, Product, StateName};
 use crate::compute::btdf::Dataset;
 use rusqlite::Transaction;
 
-/// Product with its data at one moment; [`Catalogue::put_back`] restores it.
+/// Product of the user with its data at one point in time, for undo; [`Catalogue::put_back`] restores it.
 #[derive(Debug, Clone)]
 pub struct Snapshot(Record);
 
@@ -17,26 +17,28 @@ impl Snapshot {
         &self.0.product
     }
 
-    /// Returns the contents of its states as they were read, see [`super::content_of`]; empty where they are not known.
+    /// Returns the content hashes of its states as they were read from files, in their order, see
+    /// [`super::content_of`]; empty where they are not known.
     pub fn contents(&self) -> &[String] {
         &self.0.contents
     }
 }
 
-/// New data for a state.
+/// New data for one state of a product.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replacement {
-    /// Key of the state.
+    /// Key of the state whose data are replaced.
     pub state: String,
-    /// Dataset of the state, in the form to be stored.
+    /// New dataset of the state, in the version to be stored (possibly compressed).
     pub dataset: Dataset,
-    /// Content hash of what was read, see [`super::content_of`].
+    /// Content hash of the dataset as it was read from the file, see [`super::content_of`].
     pub content: String,
     /// Name of the file that the data were read from.
     pub file: String,
 }
 
-/// Returns the product of a key. Returns an error if it is not the user's own.
+/// Returns the product with a key. Returns an error if it is built in or comes from a subscribed folder, so that the
+/// user cannot change it.
 fn own(tx: &Transaction<'_>, key: &str) -> Result<Record, CatalogueError> {
     super::subscribed::refuse_subscribed(tx, key)?;
     if read_product(tx, key)?.builtin {
@@ -52,7 +54,7 @@ fn tau(value: Option<f64>) -> String {
 }
 
 impl Catalogue {
-    /// Returns a product of the user as it is now.
+    /// Returns a snapshot of a product of the user as it is now stored.
     ///
     /// # Errors
     /// Returns an error if there is no such product, or it is not the user's own.
@@ -61,7 +63,7 @@ impl Catalogue {
         Ok(Snapshot(own(&tx, key)?))
     }
 
-    /// Restores a product to a snapshot, including its data.
+    /// Restores a product, including its data, to a snapshot.
     ///
     /// # Errors
     /// Returns an error if the product no longer exists.
@@ -75,8 +77,8 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Changes the names and angles of a product's states, in their order. Keys stay, so that scenes still find the
-    /// states.
+    /// Changes the labels and numbers (such as slat angles) of a product's states, in their order. The keys of the
+    /// states do not change, so that scenes still find them.
     ///
     /// # Errors
     /// Returns an error if the product is not the user's own, or if the number of states differs.
@@ -111,7 +113,8 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Replaces the data of some states of a product, all in one step. Names and angles stay.
+    /// Replaces the data of some states of a product, all in one transaction. Labels and numbers of the states do not
+    /// change.
     ///
     /// # Errors
     /// Returns an error if the product is not the user's own, has no such state, or if the data cannot be stored;
@@ -164,7 +167,7 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Removes products of the user permanently, all in one step.
+    /// Removes products of the user permanently, all in one transaction.
     ///
     /// # Errors
     /// Returns an error if one does not exist or is not the user's own; then all stay.

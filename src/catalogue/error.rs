@@ -24,7 +24,7 @@ pub enum CatalogueError {
         /// Error of the operating system.
         cause: std::io::Error,
     },
-    /// Layout number that no program writes.
+    /// Number of a database layout that no version of the program writes.
     #[error(
         "the catalogue {path} is damaged: its layout has the number {found}, programs write 1 to {known}; {REMEDY}"
     )]
@@ -36,7 +36,8 @@ pub enum CatalogueError {
         /// Newest layout that this program knows.
         known: i64,
     },
-    /// File of an older program that lies where nothing can be written.
+    /// File with the layout of an older program, in a folder where nothing can be written, so that it cannot be
+    /// converted.
     #[error(
         "the catalogue {path} has the layout {found} of an older version of cfs and lies where it cannot be brought to layout \
          {known}; copy it to a place that can be written"
@@ -49,7 +50,8 @@ pub enum CatalogueError {
         /// Layout that this program reads.
         known: i64,
     },
-    /// Recent changes in a file beside the catalogue, which can be read only where something can be written.
+    /// Recent changes in the write-ahead log beside the catalogue file, which can be read only where something can be
+    /// written.
     #[error(
         "the catalogue {} lies where nothing can be written, and its last changes in {}-wal cannot be read there; copy both to \
          another place",
@@ -62,7 +64,7 @@ pub enum CatalogueError {
     /// Stored data that differ from what was stored.
     #[error("the catalogue is damaged: {0}; {REMEDY}")]
     Damaged(String),
-    /// Missing folder for user data: the system names none.
+    /// Missing folder for user data: the operating system does not name one.
     #[error("no folder for the catalogue is known; name a file with CFS_CATALOGUE or --catalogue")]
     NoHome,
     /// Database of another program.
@@ -104,7 +106,7 @@ pub enum CatalogueError {
         /// Key of the state.
         state: String,
     },
-    /// Data that cannot be stored.
+    /// Dataset or product that does not meet the conditions for import.
     #[error("cannot import: {0}")]
     Import(String),
     /// Attempt to remove a built-in product.
@@ -125,10 +127,10 @@ pub enum CatalogueError {
         /// Path of the folder of packages.
         folder: String,
     },
-    /// Folder without a subscription.
+    /// Folder that is not subscribed to.
     #[error("{0} is not subscribed to; `cfs catalogue subscriptions` lists the folders that are")]
     NotSubscribed(String),
-    /// Empty name of a product.
+    /// Attempt to give a product an empty name.
     #[error("product \"{0}\" needs a name")]
     NoName(String),
     /// Empty name of a collection.
@@ -164,7 +166,7 @@ impl From<rusqlite::Error> for CatalogueError {
 }
 
 impl CatalogueError {
-    /// Whether the error means that the place of the file cannot be written to.
+    /// Whether the error is caused by the file's location, such as a read-only folder, rather than by its content.
     pub fn of_place(&self) -> bool {
         match self {
             Self::Open { cause, .. } | Self::Sql(cause) => of_place(cause),

@@ -17,7 +17,7 @@ use rusqlite::{Connection, Transaction};
 use std::collections::HashMap;
 
 impl Catalogue {
-    /// Adds a product whose states are the given datasets, in order. Changes nothing on failure.
+    /// Adds a product of the user, whose states are the given datasets in their order. Changes nothing on failure.
     pub fn import(&mut self, datasets: &[Dataset], meta: NewProduct) -> Result<Imported, CatalogueError> {
         let record = prepare(datasets, meta)?;
         let tx = self.change()?;
@@ -38,14 +38,14 @@ impl Catalogue {
         Ok(package::write(&package)?)
     }
 
-    /// Adds all products of a package, or none. Checks their datasets again. A product that is there already, with the
-    /// same key and the same datasets, stays as it is.
+    /// Adds all products of a package, or none on failure. Checks their datasets again. A product that the catalogue
+    /// already contains, with the same key and the same datasets, is not changed.
     pub fn import_package(&mut self, bytes: &[u8]) -> Result<Vec<Imported>, CatalogueError> {
         Ok(self.import_all(unpack(bytes)?)?.into_iter().map(|one| one.imported).collect())
     }
 
-    /// Adds all of the given products, or none, each as datasets and product data. A product whose requested key is
-    /// taken by one with the same datasets is there already, and stays as it is.
+    /// Adds all of the given products, or none on failure; each is given by its datasets and product data. A product
+    /// whose requested key belongs to one with the same datasets is not changed.
     pub fn import_all(&mut self, products: Vec<(Vec<Dataset>, NewProduct)>) -> Result<Vec<Stored>, CatalogueError> {
         let mut records = Vec::new();
         for (datasets, meta) in products {
@@ -79,16 +79,17 @@ impl Catalogue {
     }
 }
 
-/// Outcome for a product that was to be stored.
+/// Result of adding one product to the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stored {
-    /// Key of the product, and the products that hold the same data.
+    /// Key of the product in the catalogue, and the keys of products with the same data.
     pub imported: Imported,
-    /// Whether the product was added. `false`: it was there already, so undoing this import must not remove it.
+    /// Whether the product was added. `false`: the catalogue already contained it, so undoing the import must not
+    /// remove it.
     pub new: bool,
 }
 
-/// Returns the products of a package as datasets and product data, checked as [`package::read`] does.
+/// Returns the products of a package, each as its datasets and its product data, checked as by [`package::read`].
 ///
 /// # Errors
 /// Returns an error if the bytes are not a package, or something in it is invalid.
@@ -123,7 +124,8 @@ pub fn unpack(bytes: &[u8]) -> Result<Vec<(Vec<Dataset>, NewProduct)>, Catalogue
     Ok(list)
 }
 
-/// Stores a prepared product of the user under a free key. Returns the key and the products that share its content.
+/// Stores a checked product of the user under a free key. Returns this key and the keys of products with the same
+/// content.
 pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, CatalogueError> {
     let mut same_content_as = Vec::new();
     for (hash, _) in &record.datasets {
@@ -150,7 +152,7 @@ pub(super) fn add(tx: &Transaction, mut record: Record) -> Result<Imported, Cata
     Ok(Imported { key: record.product.key, same_content_as })
 }
 
-/// Whether the file holds this product: its key, its states and their datasets.
+/// Whether the catalogue file contains this product: the same key with the same states and datasets.
 pub(super) fn is_there(db: &Connection, product: &Product) -> Result<bool, CatalogueError> {
     let mut ask = db.prepare_cached(
         "SELECT s.key, s.dataset FROM state s JOIN product p ON s.product = p.id WHERE p.key = ? ORDER BY s.position",
@@ -161,6 +163,7 @@ pub(super) fn is_there(db: &Connection, product: &Product) -> Result<bool, Catal
     Ok(!held.is_empty() && held.iter().map(|(key, dataset)| (key, dataset)).eq(own))
 }
 
+/// Returns the product in the form of a package file.
 fn packed(product: Product) -> Result<PackageProduct, CatalogueError> {
     let from = product.provenance;
     let states = product.states.into_iter().map(|state| {
@@ -196,6 +199,7 @@ fn packed(product: Product) -> Result<PackageProduct, CatalogueError> {
     })
 }
 
+/// Returns the product data of a product in a package, for import.
 fn unpacked(product: PackageProduct) -> NewProduct {
     let from = product.provenance;
     NewProduct {

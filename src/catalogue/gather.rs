@@ -1,4 +1,4 @@
-//! Products from dataset files: which files belong together, and the product data that they contain.
+//! Products from dataset files: which files are states of one product, and the product data that the files contain.
 
 use super::ambiguity::Ambiguity;
 use super::grouping::{Grouping, propose};
@@ -7,25 +7,25 @@ use super::{NewProduct, Origin, Provenance};
 use crate::compute::btdf::Dataset;
 use crate::formats::{CatalogueFields, Format, merge_sides};
 
-/// Product as its files describe it, to be imported state by state.
+/// Product as its dataset files describe it, before it is imported.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Gathered {
-    /// Name, maker, kind, tags and provenance as far as specified. The name may be empty.
+    /// Name, maker, kind, tags and provenance as far as the files specify them. The name may be empty.
     pub meta: NewProduct,
     /// Datasets, one per state.
     pub datasets: Vec<Dataset>,
-    /// File that each dataset came from; empty where it was joined from several.
+    /// Name of the file from which each dataset was read; empty where it was joined from several files.
     pub sources: Vec<String>,
-    /// Files of each dataset, by their indices among those of the product.
+    /// Files of each dataset, as indices into the list of the product's files.
     pub parts: Vec<Vec<usize>>,
     /// Name of the first file without its extension, for products without a name.
     pub file_stem: String,
-    /// Question for the user before the product is stored, if any.
+    /// Question that the user has to answer before the product is stored, if any.
     pub ambiguity: Option<Ambiguity>,
 }
 
-/// Groups files into products according to `grouping`. States are named by their angles where the names contain them;
-/// else, where there are several, after their files.
+/// Groups files into products according to the rule `grouping`. States are named by the angles in the file names where
+/// there are any; else, where there are several, by their file names.
 pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
     let files: Vec<&SourceFile> = files.iter().collect();
     let product = |one: super::Proposal| {
@@ -35,13 +35,13 @@ pub fn gather(files: Vec<SourceFile>, grouping: Grouping) -> Vec<Gathered> {
     propose(&files, grouping).into_iter().map(product).collect()
 }
 
-/// Returns the key of a state for an angle \[°\], without needless digits.
+/// Returns the key of a state for its angle \[°\], without needless digits, such as "45".
 pub fn key_of_angle(angle: f64) -> String {
     // −0 is 0.
     format!("{}", angle + 0.0)
 }
 
-/// Joins all files into one product; `angles`: angle of every file, where they are known. \[°\]
+/// Joins all files into one product. `angles`: slat angle (or other angle) of every file, where they are known. \[°\]
 pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
     let stems: Vec<String> = files.iter().map(|file| Format::stem(&file.name).to_owned()).collect();
     let meta = NewProduct { name: name(files, &stems), ..meta(files) };
@@ -80,14 +80,14 @@ pub fn gathered(files: &[&SourceFile], angles: Option<&[f64]>) -> Gathered {
     Gathered { sources: named(&parts), parts, meta, datasets, file_stem, ambiguity: None }
 }
 
-/// Returns what a dataset says of itself; empty if that is the text of the format's template.
+/// Returns a text field of a dataset; empty if it is unchanged from the template of the file format.
 fn specified_text(text: &str, template: &str) -> String {
     let text = text.trim();
     if text == template { String::new() } else { text.to_owned() }
 }
 
-/// Returns the product's name: the one in all its files; else, where they are named by their states, the common
-/// beginning of the names.
+/// Returns the name of a product from its files: the name that all datasets have; else, where datasets are named after
+/// their states, the common beginning of their names, of the file names (`stems`), or the name of the folder.
 fn name(files: &[&SourceFile], stems: &[String]) -> String {
     let names: Vec<String> =
         files.iter().flat_map(|file| &file.datasets).map(|dataset| specified_text(&dataset.name, "Name")).collect();
@@ -110,13 +110,14 @@ fn name(files: &[&SourceFile], stems: &[String]) -> String {
     [begin(&names), begin(stems), folder].into_iter().find(|text| text.chars().count() > 2).unwrap_or(first)
 }
 
-/// Whether `part` is this dataset, or one of the functions that it was joined from.
+/// Whether a joined dataset contains all BSDF data of the dataset `part`, which was read from one file.
 fn holds(dataset: &Dataset, part: &Dataset) -> bool {
     dataset.state == part.state
         && dataset.name == part.name
         && part.visible.components().into_iter().all(|c| dataset.visible.get(c) == part.visible.get(c))
 }
 
+/// Returns the product data that files specify, each field from the first file that has it.
 fn meta(files: &[&SourceFile]) -> NewProduct {
     let first = |field: fn(&CatalogueFields) -> &str| {
         files.iter().map(|file| field(&file.fields)).find(|text| !text.trim().is_empty()).unwrap_or_default().to_owned()

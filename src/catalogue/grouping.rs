@@ -1,7 +1,7 @@
-//! Grouping of files into products: states of one product have names or contents that differ by an angle alone.
+//! Grouping of files into products: the names or contents of files with states of one product differ by an angle alone.
 //!
-//! When in doubt, every file is a product of its own: two products that are taken for one are wrong everywhere
-//! afterwards, one that is taken for two is seen at once. Where numbers might be angles the user is asked, see
+//! When in doubt, every file becomes a product of its own: two products that were taken for one are wrong everywhere
+//! afterwards, one that was taken for two is noticed at once. Where numbers might be angles the user is asked, see
 //! [`Ambiguity`].
 
 use super::ambiguity::{Ambiguity, confirmed, speaks_of_slats};
@@ -10,52 +10,54 @@ use super::source_file::SourceFile;
 use crate::formats::{Format, is_one_function};
 use std::collections::BTreeMap;
 
-/// Rule by which files that are given together become products.
+/// Rule by which files that are imported together become products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Grouping {
     /// Grouping by names and contents.
     #[default]
     Proposed,
-    /// Each file as a product of its own; functions of one state that lie in separate files stay together.
+    /// Each file as a product of its own; only files with different functions (such as transmission and reflection) of
+    /// one state are joined.
     Each,
     /// All files as the states of one product.
     One,
 }
 
-/// Files of one product, by their indices in the given list.
+/// Group of files that become one product.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Proposal {
-    /// Indices of the files, in the order of the states.
+    /// Indices of the files in the list of all imported files, in the order of the product's states.
     pub files: Vec<usize>,
-    /// Angle of every file according to its name; `None` where files name their states themselves. \[°\]
+    /// Angle of every file according to its name \[°\]; `None` where datasets contain the names of their states.
     pub angles: Option<Vec<f64>>,
     /// Question for the user about this grouping, if any.
     pub ambiguity: Option<Ambiguity>,
 }
 
-/// Indices of a family's files, with their angles where the names contain them.
+/// Indices of the files of one product, with their angles \[°\] where the file names contain them.
 type Member = (Vec<usize>, Option<Vec<f64>>);
 
-/// Index of a file, its common properties with its family, and the pattern of its name.
+/// File of a list: its index, properties that all files of one product share, and the pattern of its name.
 type Named<K> = (usize, K, Pattern);
 
-/// Files whose names differ by a number.
+/// Files whose names differ by one number.
 struct Series {
-    /// Indices of the files, with the number of each.
+    /// Index of each file, and the number by which its name differs.
     members: Vec<(usize, f64)>,
-    /// Common part of the names.
+    /// Common part of the names, with `#` in place of numbers.
     skeleton: String,
-    /// Whether a word in the names calls the number an angle.
+    /// Whether a word in the names identifies the number as an angle.
     marked: bool,
     /// Whether the numbers may count or measure something rather than being angles.
     unclear: bool,
-    /// Whether all numbers differ, and could be angles or are called so.
+    /// Whether the files are states of one product: all numbers differ, and are identified as angles or could be
+    /// angles.
     family: bool,
 }
 
-/// Returns the files of one skeleton whose other numbers agree. `marked_alone`: only numbers that are called angles
-/// count.
+/// Returns the series of files whose names differ by one number alone. `marked_alone`: only numbers that a word in the
+/// name identifies as angles are considered.
 fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
     let mut by_skeleton: BTreeMap<(&K, &str), Vec<&Named<K>>> = BTreeMap::new();
     for entry in names {
@@ -84,14 +86,14 @@ fn series<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Series> {
     found
 }
 
-/// Returns the families among files with their angles, by the patterns of one name of each file.
+/// Returns the groups of files that are states of one product, each file by its index with its angle. \[°\]
 fn families<K: Ord>(names: &[Named<K>], marked_alone: bool) -> Vec<Vec<(usize, f64)>> {
     let all = series(names, marked_alone).into_iter();
     all.filter(|one| one.family).map(|one| one.members).collect()
 }
 
-/// Whether files of a series that is not a family could still be states. Numbers that cannot be angles, and two or
-/// three samples with their numbers, raise no question.
+/// Whether the files of a series that were not grouped could still be states of one product, so that the user is asked.
+/// Numbers that cannot be angles, and two or three samples with their numbers, are not ambiguous.
 fn is_ambiguous(one: &Series) -> bool {
     let mut values: Vec<f64> = one.members.iter().map(|(_, value)| *value).collect();
     values.sort_by(f64::total_cmp);
@@ -105,13 +107,14 @@ fn is_ambiguous(one: &Series) -> bool {
     angles && (twice || one.marked || values.len() > 2 || speaks_of_slats(&one.skeleton))
 }
 
-/// Returns the product name in a file of a format with one function per file.
+/// Returns the product name in a file of a format that has one function (such as the front transmission) per file.
 fn one_function_name(file: &SourceFile) -> Option<&str> {
     let own = file.datasets.iter().all(|dataset| is_one_function(dataset) && !dataset.name.is_empty());
     own.then(|| file.datasets.first().map(|dataset| dataset.name.as_str())).flatten()
 }
 
-/// Returns the common properties of files of one product besides their names: folder, maker, words of the name, bases.
+/// Returns the properties besides the file name's numbers that all files of one product share: folder, maker, words of
+/// the name, bases.
 fn common(file: &SourceFile) -> Option<[String; 5]> {
     let [dataset] = file.datasets.as_slice() else { return None };
     Some([
@@ -123,21 +126,21 @@ fn common(file: &SourceFile) -> Option<[String; 5]> {
     ])
 }
 
-/// Returns a family sorted by rising angle.
+/// Returns a group of files with their angles, sorted by rising angle.
 fn in_order(mut family: Vec<(usize, f64)>) -> Member {
     family.sort_by(|a, b| a.1.total_cmp(&b.1));
     let (places, angles) = family.into_iter().unzip();
     (places, Some(angles))
 }
 
-/// Whether all files hold the same functions.
+/// Whether all files contain the same functions, such as the front transmission alone.
 fn one_side(files: &[&SourceFile], places: &[usize]) -> bool {
     let functions =
         |place: usize| -> Vec<_> { files[place].datasets.iter().map(|dataset| dataset.visible.components()).collect() };
     places.iter().all(|&place| files[place].datasets.len() == 1 && functions(place) == functions(places[0]))
 }
 
-/// Returns the families of files that name product and state themselves, and marks their indices as taken.
+/// Returns the groups of files whose datasets contain the names of product and state, and marks their indices as taken.
 fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let mut named: BTreeMap<Vec<String>, Vec<usize>> = BTreeMap::new();
@@ -176,7 +179,8 @@ fn self_named(files: &[&SourceFile], taken: &mut [bool]) -> Vec<Member> {
     list
 }
 
-/// Returns the families among files, with angles, or without them where the files name their states themselves.
+/// Returns the proposed groups of files, with angles, or without them where the datasets contain the names of their
+/// states.
 fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
     let mut taken = vec![false; files.len()];
     let mut list: Vec<Proposal> = self_named(files, &mut taken).into_iter().map(Proposal::from).collect();
@@ -216,7 +220,8 @@ fn proposed(files: &[&SourceFile]) -> Vec<Proposal> {
     list
 }
 
-/// Adds to `asked` the files named like those of a family but with other contents: another basis, another maker.
+/// Adds to `asked` the files that are named like those of a group but have other contents, such as another basis or
+/// another maker: for each, the files of the group.
 fn strays(files: &[&SourceFile], list: &[Proposal], taken: &[bool], asked: &mut BTreeMap<usize, Vec<usize>>) {
     let skeleton = |place: usize| Pattern::of(Format::stem(&files[place].name)).skeleton;
     for family in list.iter().filter(|family| family.angles.is_some()) {
@@ -253,7 +258,7 @@ fn joined(files: &[&SourceFile]) -> Member {
     }
 }
 
-/// Returns each file as a product of its own, except that functions of one state stay together.
+/// Returns each file as a product of its own, except that files with different functions of one state are joined.
 fn separate(files: &[&SourceFile]) -> Vec<Member> {
     let mut list: Vec<Member> = Vec::new();
     let key = |place: usize| {
@@ -269,7 +274,7 @@ fn separate(files: &[&SourceFile]) -> Vec<Member> {
     list
 }
 
-/// Returns the groups of files that make a product, in the order of their first files.
+/// Returns the groups of files that each become a product, in the order of their first files.
 pub fn propose(files: &[&SourceFile], grouping: Grouping) -> Vec<Proposal> {
     if files.is_empty() {
         return Vec::new();

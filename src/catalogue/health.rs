@@ -1,4 +1,4 @@
-//! Check and repair of a catalogue's file: whether it holds what was stored in it, and what can be restored.
+//! Check and repair of a catalogue file: whether its content is what was stored, and what can be restored.
 
 use super::builtin::{differs, is_row_of_builtin, is_version_lost, restore_damaged};
 use super::history::RESTORED;
@@ -14,19 +14,19 @@ use rusqlite::{Connection, ErrorCode, OpenFlags, Transaction};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Maximum number of broken pages that are listed one by one.
+/// Maximum number of messages about broken pages that are listed.
 const MAX_REPORTED: usize = 20;
-/// Number of pages that SQLite's backup writes in one step.
+/// Number of database pages that SQLite's backup copies in one step.
 const PAGES: i32 = 1000;
 
-/// Place of a damage in the file.
+/// Location of a damage in a catalogue file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
-    /// Marks that identify the file as a catalogue of a certain layout.
+    /// Numbers that identify the file as a catalogue and state the layout of its tables.
     Layout,
-    /// Pages of the file.
+    /// Pages of the database.
     Pages,
-    /// Rows of a product, beside its datasets.
+    /// Rows of a product, without its datasets.
     Product {
         /// Key of the product.
         key: String,
@@ -46,25 +46,25 @@ pub enum Place {
     },
 }
 
-/// Damage: something that is not as it was stored.
+/// Damage: content of the file that differs from what was stored.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Damage {
-    /// Place of the damage.
+    /// Location of the damage in the file: layout, pages, a product or a dataset.
     pub place: Place,
-    /// Description of the damage, in a sentence.
+    /// Description of the damage, as a sentence.
     pub message: String,
 }
 
-/// Result of the check of a catalogue's file.
+/// Result of the check of a catalogue file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Health {
     /// Number of products that were checked.
     pub products: usize,
     /// Number of states with data that were checked.
     pub datasets: usize,
-    /// Damages that were found.
+    /// All damages that were found.
     pub damages: Vec<Damage>,
-    /// Keys of built-in products that were damaged and have been restored, each with the time. \[UTC\]
+    /// Keys of built-in products that were damaged and have been restored, each with the time of it as UTC text.
     pub restored: Vec<(String, String)>,
 }
 
@@ -74,7 +74,8 @@ impl Health {
     }
 }
 
-/// Checks a file without changing it: its marks, its pages, every product by its seal, every dataset by its hash.
+/// Checks a catalogue file without changing it: its layout numbers, its pages, every product by its hash ("seal"),
+/// every dataset by its hash.
 ///
 /// # Errors
 /// Returns an error if the file does not exist, is not a database, or is one of another program or of a newer version.
@@ -88,6 +89,7 @@ pub fn check_file(path: &Path) -> Result<Health, CatalogueError> {
     })
 }
 
+/// Checks an open database. `path`: name of the file for messages.
 fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
     let mut health = Health::default();
     let found: i64 = db.pragma_query_value(None, "user_version", |row| row.get(0))?;
@@ -134,6 +136,7 @@ fn check(db: &Connection, path: &Path) -> Result<Health, CatalogueError> {
     Ok(health)
 }
 
+/// Returns SQLite's messages about broken pages and references, at most [`MAX_REPORTED`].
 fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
     let mut messages = Vec::new();
     for pragma in [format!("PRAGMA integrity_check({MAX_REPORTED})"), "PRAGMA foreign_key_check".to_owned()] {
@@ -175,7 +178,8 @@ fn broken_pages(db: &Connection) -> Result<Vec<String>, CatalogueError> {
     Ok(messages)
 }
 
-/// Reads all rows of all tables and indices: a page of another kind without any rows passes SQLite's own checks.
+/// Reads all rows of all tables and indices, because a page of another kind without any rows passes SQLite's own
+/// checks.
 fn read_through(db: &Connection) -> rusqlite::Result<()> {
     let mut ask = db.prepare(
         r#"SELECT format('SELECT * FROM "%w" NOT INDEXED', name) FROM sqlite_schema WHERE type = 'table'
@@ -201,7 +205,7 @@ fn restored(db: &Connection) -> Result<Vec<(String, String)>, CatalogueError> {
     Ok(ask.query_map([RESTORED], |row| Ok((row.get(0)?, row.get(1)?)))?.collect::<Result<_, _>>()?)
 }
 
-/// Checks every product with its data and adds what is damaged to `health`.
+/// Checks every product with its data, and adds the damages to `health`.
 fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> {
     let mut ask = db.prepare("SELECT id, CAST(key AS BLOB) FROM product ORDER BY rank, key")?;
     let keys: Vec<(i64, Vec<u8>)> =
@@ -251,7 +255,8 @@ fn products(db: &Connection, health: &mut Health) -> Result<(), CatalogueError> 
     Ok(())
 }
 
-/// Copies a file, with the changes that wait beside it, to a free name. Returns that name.
+/// Copies a catalogue file, together with the changes in its write-ahead log, to a free file name beside it. Returns
+/// that name.
 ///
 /// # Errors
 /// Returns an error if the system cannot copy the files.
@@ -275,8 +280,9 @@ pub fn copy_aside(path: &Path) -> std::io::Result<PathBuf> {
     Ok(copy)
 }
 
-/// Repairs what the file itself and the program know: marks, indices, broken pages as far as their rows can be read,
-/// built-in products and their data, which are computed at their next use. Returns sentences about what was lost.
+/// Repairs a catalogue file as far as the file itself and the program allow: layout numbers, indices, broken pages as
+/// far as their rows can be read, built-in products and their data, which are computed at their next use. Returns
+/// sentences about what was lost.
 ///
 /// # Errors
 /// Returns an error under the conditions of [`check_file`], or if something cannot be written.
@@ -361,8 +367,8 @@ fn reset_builtin(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueError> 
 }
 
 impl Catalogue {
-    /// Writes the bytes of a dataset back that a state names and that are damaged or missing. Returns `false` if the
-    /// bytes are not those that were stored, or no state names them.
+    /// Writes back the bytes of a dataset that a state refers to and that are damaged or missing. `hash`: hash of the
+    /// dataset; `blob`: its bytes. Returns `false` if the bytes do not have this hash, or no state refers to it.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read or written.
@@ -380,7 +386,7 @@ impl Catalogue {
         Ok(named)
     }
 
-    /// Returns the hash under which a dataset is stored, and its bytes.
+    /// Returns the hash under which a dataset is stored in the catalogue, and its bytes.
     pub fn bytes_of(dataset: &crate::compute::btdf::Dataset) -> (String, Vec<u8>) {
         let blob = crate::formats::dataset_blob::encode(dataset);
         (content_hash(&blob), blob)

@@ -1,21 +1,21 @@
-//! History of products, and the files that they were read from.
+//! History of the changes of products, and the paths of the files that they were read from.
 
 use super::{Catalogue, CatalogueError};
 use rusqlite::{Connection, Transaction};
 
-/// Event in the history of a product.
+/// Event in the history of a product, such as its import or a change of its texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Event {
-    /// Time of the event: UTC, `YYYY-MM-DDThh:mm:ssZ`.
+    /// Time of the event as UTC text, `YYYY-MM-DDThh:mm:ssZ`.
     pub at: String,
     /// Description of the event, in a sentence.
     pub what: String,
 }
 
-/// Text of the event that a built-in product was damaged and restored.
+/// Description of the event in which a damaged built-in product was restored.
 pub(super) const RESTORED: &str = "was damaged in the file, and restored from what the program contains";
 
-/// Records an event of a product, in the transaction of the change itself.
+/// Adds an event to the history of a product, in the transaction of the change itself.
 pub(super) fn note(tx: &Transaction<'_>, key: &str, what: &str) -> Result<(), CatalogueError> {
     tx.prepare_cached(
         "INSERT INTO history (product_key, at, what) VALUES (?, strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?)",
@@ -31,7 +31,7 @@ pub(super) fn forget(tx: &Transaction<'_>, key: &str) -> Result<(), CatalogueErr
     Ok(())
 }
 
-/// Records the files that a product was read from.
+/// Stores the paths of the files that a product was read from.
 pub(super) fn set_paths(tx: &Transaction<'_>, key: &str, paths: &[String]) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM source WHERE product_key = ?", [key])?;
     for (position, path) in paths.iter().enumerate() {

@@ -16,47 +16,49 @@ use super::words::{self, distance, forgiven, letters, without_written_marks};
 use crate::texts::{ascii_words, folded, is_syllable};
 use std::sync::Arc;
 
-/// Result of a search.
+/// Result of a search in the catalogue.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
-    /// Products in the requested order.
+    /// Found products, in the requested order.
     pub entries: Vec<Arc<ProductRow>>,
-    /// Number of products in the whole catalogue.
+    /// Number of visible products in the whole catalogue, found or not.
     pub total: usize,
-    /// Values that could be chosen next, with counts.
+    /// Values by which the search can be narrowed, each with the number of products that it would leave.
     pub facets: Facets,
-    /// Filters and single words whose removal would give results, each with the number of products. Empty unless
-    /// nothing was found.
+    /// Filters and single words whose removal from the query would give results, each with the number of products.
+    /// Empty unless nothing was found.
     pub without: Vec<(Filter, usize)>,
-    /// Typed words that occur nowhere, each with the word that it was read as.
+    /// Typed words that occur nowhere in the catalogue, each with the similar word that was searched for instead.
     pub read_as: Vec<(String, String)>,
-    /// Length of the longest name among the entries, in characters.
+    /// Length of the longest name among the found products, in characters.
     pub longest_name: usize,
     /// Keys of the products that are not listed because they are damaged.
     pub damaged: Vec<String>,
     /// Keys of the built-in products that were damaged, and restored since the catalogue was opened.
     pub restored: Vec<String>,
-    /// Distances of the entries from the product named in [`Query::like`], where it is in the catalogue.
+    /// Distances of the found products from the product named in [`Query::like`]; `None` if the query names none, or
+    /// the catalogue does not contain it.
     pub like: Option<Likeness>,
 }
 
-/// Weight of a match in words joined from neighbours, relative to a match in a single word.
+/// Factor on the weight of a match in words joined from neighbours, relative to a match in a single word.
 const JOINED: f32 = 0.9;
-/// Length of the shortest part of a word that is searched for, in characters.
+/// Minimum length of a typed word that is also searched for inside words, in characters.
 const SHORTEST_PART: usize = 3;
 
-/// Word of the catalogue.
+/// Word that occurs in products of the catalogue.
 #[derive(Debug)]
 struct Word {
     text: String,
     /// Set of the letters and digits of the word, one bit each.
     letters: u64,
     length: usize,
-    /// Products that contain the word, with the weight of the best place.
+    /// Indices of the products that contain the word, each with the weight of the most important field in which it
+    /// occurs.
     products: Vec<(u32, f32)>,
 }
 
-/// Product in the index.
+/// Product in the index; texts are given by their numbers.
 #[derive(Debug)]
 struct Item {
     row: Arc<ProductRow>,
@@ -64,13 +66,14 @@ struct Item {
     manufacturer: usize,
     tags: Vec<usize>,
     collections: Vec<usize>,
-    /// Positions of the product when all are sorted by name, by maker and by kind.
+    /// Positions of the product when all products are sorted by name, by maker and by kind.
     order: [usize; 3],
-    /// Addition to the score for names of few words, which precede longer ones that fit equally well.
+    /// Addition to the score for products with short names, which precede those with longer ones that match equally
+    /// well.
     brevity: f32,
 }
 
-/// Index of all products with their words: answers any number of queries.
+/// Search index of all products with their words, which answers any number of queries.
 #[derive(Debug, Default)]
 pub struct Index {
     items: Vec<Item>,
@@ -79,23 +82,23 @@ pub struct Index {
     manufacturers: Vec<String>,
     tags: Vec<String>,
     collections: Vec<String>,
-    /// Keys of damaged products, see [`Found::damaged`].
+    /// Keys of products that are not listed because they are damaged.
     pub(super) damaged: Vec<String>,
-    /// Keys of restored products, see [`Found::restored`].
+    /// Keys of built-in products that were damaged and have been restored.
     pub(super) restored: Vec<String>,
 }
 
-/// Quality of the fit of the typed words to each product.
+/// Quality of the match of each product with the typed words.
 struct Fit {
-    /// Sum of the weights over the words; also set for products that lack a word.
+    /// Sum of the weights of the matches over all words; also set for products that lack a word.
     score: Vec<f32>,
-    /// Number of the query's words that each product lacks, and the index of the last of them.
+    /// Number of the query's words that each product lacks, and the position of the last of them in the query.
     lacks: Vec<(u16, usize)>,
     read_as: Vec<(String, String)>,
 }
 
 impl Index {
-    /// Creates the index of a list of products. Products that fit equally well keep the order of the list.
+    /// Creates the index of a list of products. Products that match equally well stay in the order of the list.
     pub fn new(products: Vec<Sought>) -> Self {
         let mut all = Numbered::default();
         let mut found_in: Vec<Vec<(u32, f32)>> = Vec::new();
@@ -176,6 +179,7 @@ impl Index {
         }
     }
 
+    /// Computes how well each product matches the words of a query, and which words it lacks.
     fn fit(&self, query: &Query) -> Fit {
         let count = self.items.len();
         let mut fit = Fit { score: vec![0.0; count], lacks: vec![(0, 0); count], read_as: Vec::new() };
@@ -210,8 +214,8 @@ impl Index {
         fit
     }
 
-    /// Returns the words of the catalogue that fit a typed one, each with the quality of the fit, up to 1; also the
-    /// word that it was read as where it occurs nowhere.
+    /// Returns the words of the catalogue that match a typed one, by their indices, each with the quality of the match,
+    /// up to 1. Returns also the similar word that was searched for instead, if the typed one occurs nowhere.
     fn matches(&self, typed: &str) -> (Vec<(usize, f32)>, Option<String>) {
         let spelt: Vec<char> = typed.chars().collect();
         let plain = without_written_marks(typed).map(|plain| (letters(&plain.chars().collect::<Vec<char>>()), plain));
@@ -262,7 +266,7 @@ impl Index {
         (near.into_iter().map(|(at, errors, longer)| (at, weight(errors, longer))).collect(), read_as)
     }
 
-    /// Returns the filters that a product does not pass, one bit each.
+    /// Returns the filters of the query that a product does not pass, one bit each.
     fn misses(&self, query: &Query, fit: &Fit, number: usize) -> u16 {
         let row = &*self.items[number].row;
         let in_list = |list: &[String], value: &str| list.is_empty() || list.iter().any(|one| one == value);
@@ -292,6 +296,8 @@ impl Index {
         Filter::all().enumerate().fold(0, |bits, (bit, filter)| bits | u16::from(!passes(filter)) << bit)
     }
 
+    /// Sorts product indices in the order that the query requests; products without a value of the sorting criterion
+    /// come last.
     fn sort(&self, order: &mut [usize], query: &Query, fit: &Fit) {
         let item = |number: &usize| &self.items[*number];
         match query.sort {
@@ -322,8 +328,9 @@ impl Index {
         }
     }
 
-    /// Sorts the products by distance from the product with the key `key`, nearest at the top unless the query says
-    /// otherwise. Leaves out that product itself and those without a known distance.
+    /// Sorts products by their distance from the product with the key `key`, nearest at the top unless the query
+    /// requests another order, and returns the distances. Leaves out that product itself and those without a known
+    /// distance.
     fn like(&self, key: &str, order: &mut Vec<usize>, query: &Query) -> Option<Likeness> {
         let other = &self.items.iter().find(|item| item.row.key == key)?.row;
         let of = |number: usize| {
@@ -342,6 +349,8 @@ impl Index {
         Some(Likeness { key: key.to_owned(), name: other.name.clone(), distances })
     }
 
+    /// Counts for each value of each filter the products that would be found if it were chosen. `misses`: filters that
+    /// each product does not pass.
     fn facets(&self, query: &Query, misses: &[u16]) -> Facets {
         let counted = |filter: Filter| {
             let bit = bit(filter);
@@ -411,7 +420,8 @@ impl Index {
         }
     }
 
-    /// Returns the number of results without each of the filters and each of the words, largest at the top.
+    /// Returns, for each filter and each word of the query, the number of products that would be found without it,
+    /// largest number at the top.
     fn without(&self, query: &Query, fit: &Fit, misses: &[u16]) -> Vec<(Filter, usize)> {
         let mut list: Vec<(Filter, usize)> = Filter::all()
             .filter(|filter| query.has(*filter))
@@ -432,7 +442,7 @@ impl Index {
     }
 }
 
-/// Returns the bit of a filter among those of `misses`.
+/// Returns the bit that represents a filter in the result of [`Index::misses`].
 fn bit(filter: Filter) -> u16 {
     Filter::all().position(|one| one == filter).map_or(0, |place| 1 << place)
 }

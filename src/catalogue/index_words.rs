@@ -5,7 +5,7 @@ use super::words::{self, parts, runs};
 use crate::texts::folded;
 use std::collections::HashMap;
 
-/// Weights of a match by the place of the word in the product.
+/// Weights of a match in a search, by the field of the product in which the word occurs.
 pub(super) mod place {
     pub const NAME: f32 = 10.0;
     pub const KIND: f32 = 6.0;
@@ -16,7 +16,7 @@ pub(super) mod place {
     pub const DESCRIPTION: f32 = 1.0;
 }
 
-/// Texts with consecutive numbers, in the order of their first use.
+/// Numbering of texts: each different text gets the next number, in the order of first use.
 #[derive(Default)]
 pub(super) struct Numbered {
     pub(super) texts: Vec<String>,
@@ -24,6 +24,7 @@ pub(super) struct Numbered {
 }
 
 impl Numbered {
+    /// Returns the number of a text, and assigns the next one to a new text.
     pub(super) fn of(&mut self, text: &str) -> usize {
         if let Some(number) = self.numbers.get(text) {
             return *number;
@@ -34,7 +35,7 @@ impl Numbered {
     }
 }
 
-/// Returns a text in which numbers sort by their size: "blind 80" before "blind 100".
+/// Returns a sorting key of a text by which numbers are sorted by their size: "blind 80" before "blind 100".
 fn by_numbers(text: &str) -> String {
     let mut key = String::with_capacity(text.len() + 8);
     let mut rest = text;
@@ -49,7 +50,8 @@ fn by_numbers(text: &str) -> String {
     key
 }
 
-/// Returns the position of every product in the order of a text.
+/// Returns the position of every product when all are sorted by the text that `of` returns; equal texts have equal
+/// positions.
 pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec<usize> {
     let texts: Vec<String> = products.iter().map(|product| by_numbers(&of(product))).collect();
     let mut order: Vec<usize> = (0..products.len()).collect();
@@ -66,8 +68,8 @@ pub(super) fn places(products: &[Sought], of: impl Fn(&Sought) -> String) -> Vec
     places
 }
 
-/// Calls `put` for the words of a text, their parts, and (with `join`) neighbours written together; only for the latter
-/// with `true`.
+/// Calls `put` for each word of a text and each part of a word between letters and digits (with `false`) and, if
+/// `join`, for two or three neighbours written together (with `true`).
 pub(super) fn words_of(text: &str, join: bool, put: &mut dyn FnMut(&str, bool)) {
     let folded = folded(text);
     let short = |word: &str| word.chars().count() <= words::LONGEST;

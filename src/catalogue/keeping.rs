@@ -1,4 +1,4 @@
-//! Stored products: changing their descriptive texts, hiding and restoring them, finding them by content.
+//! Changes of stored products: their descriptive texts, hiding and restoring them, and finding products by content.
 
 use super::history::note;
 use super::sight::{bring_back, is_deleted};
@@ -24,7 +24,7 @@ pub struct Words {
     pub license: String,
 }
 
-/// Hidden product.
+/// Hidden product, which the user deleted and can restore.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Deleted {
     /// Key by which the product is restored.
@@ -37,7 +37,7 @@ pub struct Deleted {
     pub builtin: bool,
 }
 
-/// Key and name of a product of the catalogue.
+/// Key and name of a product in the catalogue.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Known {
     /// Key of the product.
@@ -46,7 +46,7 @@ pub struct Known {
     pub name: String,
 }
 
-/// Returns a sentence about the texts that changed; empty where nothing changed.
+/// Returns a sentence that names the descriptive texts that changed; empty where nothing changed.
 fn words_changed(before: &Product, after: &Words) -> String {
     let [tags, new_tags] = [before.tags.join(", "), after.tags.join(", ")];
     let fields = [
@@ -61,14 +61,14 @@ fn words_changed(before: &Product, after: &Words) -> String {
     words.join("; ")
 }
 
-/// Returns key and name of a product; the key stands for the name where the product is damaged.
+/// Returns key and name of a product; for a damaged product the key also as its name.
 fn named(db: &Connection, key: String) -> Known {
     let product = read_product(db, &key).and_then(|product| sealed(db, product));
     Known { name: product.map_or_else(|_| key.clone(), |product| product.name), key }
 }
 
 impl Catalogue {
-    /// Changes the descriptive texts of a product. Its key stays, so that scenes still find it.
+    /// Changes the descriptive texts of a product of the user. Its key does not change, so that scenes still find it.
     ///
     /// # Errors
     /// Returns an error if there is no such product, if it is built in, or if the name is empty.
@@ -109,7 +109,8 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Hides a product. Scenes that name it still work; [`Catalogue::restore_product`] makes it visible again.
+    /// Hides a product from lists and searches. Scenes that name it still work; [`Catalogue::restore_product`] makes it
+    /// visible again.
     ///
     /// # Errors
     /// Returns an error if there is no such product or it is hidden already.
@@ -141,7 +142,7 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Returns the hidden products, newest at the top.
+    /// Returns the hidden products, the most recently hidden at the top.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
@@ -157,7 +158,8 @@ impl Catalogue {
         Ok(statement.query_map([], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Returns the visible products that were read from files with this hash, see [`super::Provenance::source_hash`].
+    /// Returns the visible products that were read from files with the hash `source_hash`, see
+    /// [`super::Provenance::source_hash`].
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
@@ -170,8 +172,8 @@ impl Catalogue {
         Ok(statement.query_map([source_hash], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Returns the visible products with a state of this content, see [`super::content_of`]. Products stored by older
-    /// programs, which kept no contents, are not found.
+    /// Returns the visible products with a state whose data have the content hash `content`, see [`super::content_of`].
+    /// Products stored by older programs, which did not store these hashes, are not found.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.

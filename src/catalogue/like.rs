@@ -1,7 +1,7 @@
-//! Similarity of products, by their effect on light and not by their names.
+//! Similarity of products by their effect on light, not by their names.
 //!
-//! The distance of two products is the root mean square of five differences, all as shares of the light that falls on
-//! the window: 0.01 is a difference of one per cent of that light.
+//! The distance of two products is the root mean square of five differences, all as shares of the luminous flux that is
+//! incident on the window: 0.01 is a difference of one per cent of that flux.
 //!
 //! | term | difference of |
 //! | --- | --- |
@@ -22,34 +22,35 @@ use crate::texts::{Text, catalogue as text, fixed};
 /// Labels of the terms, in the order of [`ProductDistance::terms`].
 const TERMS: [Text; 5] =
     [text::DISTANCE_TAU, text::DISTANCE_PROFILE, text::DISTANCE_CEILING, text::DISTANCE_SUN, text::DISTANCE_VIEW];
-/// Smallest difference that is visible with two decimals.
+/// Smallest absolute difference (share of the incident flux) that is named in the text; smaller ones vanish with two
+/// decimals.
 const SHOWN: f64 = 0.005;
-/// Maximum number of terms in the text.
+/// Maximum number of terms that the text names.
 const MAX_TERMS: usize = 3;
 
-/// Distance of a product from another one.
+/// Distance of a product from another one by their effect on light, with the five differences of which it is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProductDistance {
-    /// Root mean square of the terms that are known for both.
+    /// Root mean square of the terms that are known for both products, as a share of the incident flux.
     pub distance: f64,
-    /// Differences, this product minus the other: τ, profile (never negative), ceiling, sun blocked, view; `None` where
-    /// unknown.
+    /// Differences, this product minus the other, as shares of the incident flux: τ, profile (never negative), ceiling,
+    /// sun blocked, view; `None` where unknown.
     pub terms: [Option<f64>; 5],
 }
 
-/// Distances of products from one of them.
+/// Distances of found products from one product, by their effect on light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Likeness {
-    /// Key of the product that the others are compared with.
+    /// Key of the product from which the distances are counted.
     pub key: String,
     /// Name of that product.
     pub name: String,
-    /// Distance of each entry from that product, in the order of the entries.
+    /// Distance of each found product from that product, in the order of the list of found products.
     pub distances: Vec<ProductDistance>,
 }
 
 impl ProductDistance {
-    /// Returns the distance of one product from another; `None` where no term is known for both.
+    /// Returns the distance between two products by their effect on light; `None` where no term is known for both.
     pub fn of(one: &ProductRow, other: &ProductRow) -> Option<Self> {
         let less = |a: Option<f64>, b: Option<f64>| Some(a? - b?);
         let upwards = |row: &ProductRow| match (row.to_ceiling, row.tau_hemispherical) {
@@ -70,7 +71,8 @@ impl ProductDistance {
         (count > 0).then(|| Self { distance: (sum / f64::from(count)).sqrt(), terms })
     }
 
-    /// Returns a text such as `0.03 apart: ceiling +0.06, τ −0.01`, with the largest terms in falling order.
+    /// Returns the distance as a translated text such as `0.03 apart: ceiling +0.06, τ −0.01`, with the largest terms
+    /// in falling order.
     pub fn words(&self) -> String {
         let mut terms: Vec<(Text, f64)> =
             TERMS.into_iter().zip(self.terms).filter_map(|(word, term)| Some((word, term?))).collect();
@@ -90,7 +92,8 @@ impl ProductDistance {
     }
 }
 
-/// Returns the root mean square of the differences of two profiles.
+/// Returns the root mean square of the differences of two lists of transmittances at [`PROFILE_ANGLES`], weighted by
+/// the flux received (cos ψ dψ); `None` if a list is not known.
 fn profile(one: &[f64], other: &[f64]) -> Option<f64> {
     let last = PROFILE_ANGLES.len() - 1;
     if one.len() != last + 1 || other.len() != last + 1 {

@@ -2,7 +2,7 @@
 
 use rusqlite::{Error, ErrorCode, ffi};
 
-/// Returns a message without SQL: what is wrong, and what to do about it.
+/// Returns a message for an SQLite error, without SQL: what is wrong, and what to do about it.
 pub(super) fn user_message(error: &Error) -> String {
     let message = sqlite_message(error);
     match error.sqlite_error_code() {
@@ -43,7 +43,7 @@ fn damaged(message: &str) -> String {
     format!("it is damaged ({message}); {REMEDY}")
 }
 
-/// Returns SQLite's own message, without the statement.
+/// Returns SQLite's own message, without the text of the SQL statement.
 pub(super) fn sqlite_message(error: &Error) -> String {
     match error {
         Error::SqlInputError { msg, .. } => msg.clone(),
@@ -52,7 +52,8 @@ pub(super) fn sqlite_message(error: &Error) -> String {
     }
 }
 
-/// Whether the error comes from the place of the file, so that reading may still be possible.
+/// Whether the error is caused by the file's location, such as a read-only folder, so that reading may still be
+/// possible.
 pub(super) fn of_place(error: &Error) -> bool {
     matches!(
         error.sqlite_error_code(),

@@ -1,28 +1,29 @@
-//! Names with numbers in them: what they have in common, and which number may be the angle of a state.
+//! File names with numbers: the common part of several names, and which number may be the angle of a state.
 
-/// Words before a number that mark it as the angle of the state, unless it counts something.
+/// Words before a number that identify it as the angle of a state, unless it counts something.
 const TURNS: [&str; 5] = ["tilt", "angle", "rot", "rotation", "winkel"];
-/// Words before a number that may be the angle of the named thing, or its width.
+/// Words for a component, before a number that may be its angle or its width.
 const THINGS: [&str; 3] = ["slat", "lamella", "lamelle"];
 /// Widths of slats on the market. \[mm\]
 const WIDTHS: [f64; 13] = [16.0, 25.0, 35.0, 50.0, 60.0, 65.0, 70.0, 80.0, 90.0, 93.0, 100.0, 120.0, 150.0];
-/// Words after a number that mark it as an angle in degrees.
+/// Words after a number that identify it as an angle in degrees.
 const AFTER: [&str; 3] = ["deg", "°", "grad"];
-/// Words after a number that mark it as another quantity.
+/// Words after a number that identify it as another quantity than an angle.
 const UNITS: [&str; 8] = ["pct", "perc", "proz", "%", "mm", "cm", "nm", "lx"];
 
-/// Kind of word that suggests that a number is an angle.
+/// Kind of the word in a file name that suggests that a number is an angle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Called {
-    /// Unit of degrees.
+    /// Unit of degrees after the number.
     Degrees,
-    /// Word for a rotation.
+    /// Word for a rotation before the number.
     Turn,
-    /// Word for a thing that has an angle and a width.
+    /// Word for a component before the number, which has both an angle and a width.
     Thing,
 }
 
-/// Whether numbers could be something other than angles, such as counts or widths.
+/// Whether numbers could be something other than angles, such as counts or widths. `called`: kind of the word that
+/// suggests angles.
 pub(super) fn unclear(values: &[f64], called: Option<Called>) -> bool {
     let mut sorted = values.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -37,18 +38,18 @@ pub(super) fn unclear(values: &[f64], called: Option<Called>) -> bool {
     }
 }
 
-/// Pattern of a name: its text without the numbers, and the numbers.
+/// Pattern of a file name: its text without the numbers, and the numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Pattern {
     /// Name in lower case, with `#` in place of every number.
     pub skeleton: String,
     /// Numbers in the order of the name.
     pub numbers: Vec<f64>,
-    /// Index of the number that a word marks as the angle.
+    /// Index in `numbers` of the one that a word identifies as the angle.
     pub marked: Option<usize>,
-    /// Kind of the word that marks it.
+    /// Kind of the word that identifies it.
     pub called: Option<Called>,
-    /// Indices of the numbers with another unit.
+    /// Indices in `numbers` of those with another unit than degrees.
     pub other: Vec<usize>,
 }
 
@@ -84,7 +85,8 @@ impl Pattern {
         pattern
     }
 
-    /// Adds a number: its sign from the text before it, its meaning from the words on both sides.
+    /// Adds a number of the name. `size`: its absolute value; its sign is found in the text before it, its meaning in
+    /// the words before it and in `after`.
     fn take(&mut self, size: f64, after: &str) {
         let mut before = self.skeleton.chars().rev();
         let minus =
@@ -113,7 +115,7 @@ impl Pattern {
         self.skeleton.push('#');
     }
 
-    /// Returns the bits of all numbers except the one at index `one`, for comparison.
+    /// Returns the bits of all numbers except the one at index `one`, for comparison with another name.
     pub fn others(&self, one: usize) -> Vec<u64> {
         self.numbers.iter().enumerate().filter(|(i, _)| *i != one).map(|(_, value)| value.to_bits()).collect()
     }

@@ -1,4 +1,4 @@
-//! Opening the file: settings of the connection, numbered migrations, built-in products.
+//! Opening of a catalogue file: settings of the connection, numbered migrations, built-in products.
 
 use super::connection::Catalogue;
 use super::sealing::seal_what_is_left;
@@ -7,7 +7,7 @@ use rusqlite::{Connection, OpenFlags, TransactionBehavior};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Migrations from an empty file to the current layout; `PRAGMA user_version` counts those done.
+/// Migrations from an empty file to the current layout; `PRAGMA user_version` counts those that were applied.
 const MIGRATIONS: &[&str] = &[
     include_str!("../../migrations/0001_products.sql"),
     include_str!("../../migrations/0002_system.sql"),
@@ -32,7 +32,7 @@ pub(super) const APPLICATION: i64 = 0x4346_5358;
 /// Maximum time that a connection waits for another one to finish writing.
 const TIMEOUT: Duration = Duration::from_secs(10);
 
-/// Returns the error with the file's name added.
+/// Returns the error with the name of the file added.
 fn located(error: CatalogueError, path: &Path) -> CatalogueError {
     let shown = || path.display().to_string();
     match error {
@@ -45,7 +45,7 @@ fn located(error: CatalogueError, path: &Path) -> CatalogueError {
     }
 }
 
-/// Returns a file's name in the form that makes SQLite assume that nobody changes the file.
+/// Returns the URI of a file that makes SQLite assume that nobody changes the file, so that it needs no lock.
 fn unchanging(path: &Path) -> String {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut name = String::from("file:");
@@ -64,8 +64,8 @@ fn unchanging(path: &Path) -> String {
     name + "?immutable=1"
 }
 
-/// Returns the path of the user's catalogue: `CFS_CATALOGUE` when set, else `catalogue.sqlite` in the user's folder for
-/// data.
+/// Returns the path of the user's catalogue: that in the environment variable `CFS_CATALOGUE`, else `catalogue.sqlite`
+/// in the user's folder for application data.
 pub fn default_path() -> Result<PathBuf, CatalogueError> {
     if let Some(path) = std::env::var_os("CFS_CATALOGUE").filter(|path| !path.is_empty()) {
         return Ok(path.into());
@@ -75,11 +75,11 @@ pub fn default_path() -> Result<PathBuf, CatalogueError> {
 }
 
 impl Catalogue {
-    /// Opens a catalogue file, creates it when missing, and brings it to the current layout and its built-in products
-    /// to this program's version. Nothing is computed here: the figures of built-in products are known, and their data
-    /// are computed at their first use.
+    /// Opens a catalogue file. Creates it when missing, and updates its layout and its built-in products to the version
+    /// of this program. Nothing is computed: the figures of built-in products come with the program, and their data are
+    /// computed at their first use.
     ///
-    /// Where nothing can be written – a read-only place, a full disk – it is opened for reading.
+    /// Where nothing can be written – in a read-only folder, on a full disk – the file is opened for reading.
     pub fn open(path: &Path) -> Result<Self, CatalogueError> {
         if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
             std::fs::create_dir_all(folder)
@@ -141,6 +141,7 @@ impl Catalogue {
         Ok(catalogue)
     }
 
+    /// Brings the layout of an open database up to date, or creates it in an empty one.
     fn laid_out(db: Connection) -> Result<Self, CatalogueError> {
         db.busy_timeout(TIMEOUT)?;
         db.pragma_update(None, "foreign_keys", true)?;
@@ -157,8 +158,8 @@ impl Catalogue {
         Ok(catalogue)
     }
 
-    /// Turns on write-ahead logging, so that readers and a writer do not wait for each other. Two connections that both
-    /// change the mode of a new file may meet; SQLite then answers "busy" without waiting.
+    /// Turns on write-ahead logging, so that readers and a writer do not wait for each other. Repeats it while SQLite
+    /// answers "busy", which happens when two connections change the mode of a new file at once.
     fn write_ahead(&self) -> Result<(), CatalogueError> {
         let mut tries = 0;
         loop {
@@ -179,7 +180,8 @@ impl Catalogue {
         Ok(db.pragma_query_value(None, "user_version", |row| row.get(0))?)
     }
 
-    /// Returns the layout of the file. Refuses files of other programs and of newer ones, and unknown layouts.
+    /// Returns the number of the file's layout. Returns an error for files of other programs, files of newer versions,
+    /// and unknown layouts.
     fn judge(&self) -> Result<i64, CatalogueError> {
         // One look at all three: another program may be making the file at this moment.
         let look = self.db.unchecked_transaction()?;
@@ -204,7 +206,7 @@ impl Catalogue {
         Ok(found)
     }
 
-    /// Applies the missing migrations, each in one transaction.
+    /// Applies the missing migrations of the file's layout, each in one transaction.
     fn migrate(&mut self, steps: &[&str]) -> Result<(), CatalogueError> {
         while Self::version(&self.db)? < steps.len() as i64 {
             let step = self.db.transaction_with_behavior(TransactionBehavior::Immediate)?;
@@ -231,12 +233,12 @@ impl Catalogue {
     }
 }
 
-/// Returns the newest layout that this program knows.
+/// Returns the number of the newest layout that this program knows.
 pub(super) const fn known_layout() -> i64 {
     MIGRATIONS.len() as i64
 }
 
-/// Returns the tables with their columns.
+/// Returns the names of the database's tables, each with its columns.
 fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
     let sql = "SELECT t.name, (SELECT group_concat(c.name) FROM pragma_table_info(t.name) c) FROM sqlite_schema t
                WHERE t.type = 'table' AND t.name NOT LIKE 'sqlite!_%' ESCAPE '!' ORDER BY t.name";
@@ -245,8 +247,8 @@ fn shape(db: &Connection) -> rusqlite::Result<Vec<(String, String)>> {
         .collect()
 }
 
-/// Returns the layout of a file according to its tables, whatever number it names. `None`: no layout that this program
-/// knows.
+/// Returns the number of the file's layout according to its tables, whatever number it states; `None` for a layout that
+/// this program does not know.
 pub(super) fn layout_of(db: &Connection) -> Result<Option<i64>, CatalogueError> {
     let found = shape(db)?;
     let mut known = Catalogue::of(Connection::open_in_memory()?);

@@ -1,10 +1,10 @@
-//! Products in the form in which the rest of the program uses them.
+//! Products of the catalogue for the rest of the program: descriptive texts, provenance, states and figures.
 
 use crate::compute::btdf::{Btdf, LightFigures, Severity};
 use crate::compute::direction::{Dir, Incident};
 use crate::texts::{Text, ascii_letters, catalogue as text};
 
-/// Origin of data: measured or computed.
+/// Origin of BSDF data: measured or computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Origin {
     /// Measured with an instrument.
@@ -26,7 +26,7 @@ impl Origin {
         }
     }
 
-    /// Returns the translated label.
+    /// Returns the translated label, such as "measured".
     pub const fn words(self) -> Text {
         match self {
             Self::Measured => text::MEASURED,
@@ -45,7 +45,7 @@ impl Origin {
     }
 }
 
-/// Source of the data. An empty text means: not specified.
+/// Provenance of the data. An empty text means: not specified.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Provenance {
     /// Origin, measured or computed.
@@ -56,41 +56,47 @@ pub struct Provenance {
     pub method: String,
     /// Date as the source gives it.
     pub date: String,
-    /// Name of the file from which the data were read.
+    /// Name of the file from which the data were read; of several files, their names separated by commas.
     pub source_file: String,
-    /// BLAKE3 hash of that file, 64 hexadecimal digits.
+    /// BLAKE3 hash of the file from which the data were read, or of the description from which they were computed: 64
+    /// hexadecimal digits.
     pub source_hash: String,
     /// Face of the system that looks into the room.
     pub inside_face: String,
 }
 
-/// State of a product, in the order of its family.
+/// State of a product, such as a slat angle or a switching state, with its figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
     /// Key that scenes use; empty for the only state of a product without states.
     pub key: String,
     /// Label of the state for people.
     pub label: String,
-    /// Number of the state: an angle \[°\] or another number.
+    /// Number of the state: an angle \[°\], or another number that orders the states; `None` without one.
     pub value: Option<f64>,
-    /// BLAKE3 hash of its dataset in compact form; `None`: still to be computed from the product's description.
+    /// BLAKE3 hash of the state's dataset in compact form; `None` while it is still to be computed from the product's
+    /// description.
     pub dataset: Option<String>,
-    /// Visible transmittance of light from outside at normal incidence.
+    /// Visible transmittance τ of light from outside at normal incidence, 0 … 1; `None` when unknown.
     pub tau_normal: Option<f64>,
-    /// Visible transmittance of light from outside under uniform luminance.
+    /// Visible hemispherical transmittance τ: of light from outside under uniform luminance, 0 … 1; `None` when
+    /// unknown.
     pub tau_hemispherical: Option<f64>,
-    /// Visible transmittances in the vertical plane at the profile angles [`PROFILE_ANGLES`]; empty when unknown.
+    /// Visible transmittances τ of light from outside, from directions in the vertical plane through the normal at the
+    /// profile angles [`PROFILE_ANGLES`]; empty when unknown.
     pub tau_profile: Vec<f64>,
-    /// Figures of the direction in which light leaves; `None` when unknown.
+    /// Figures of the transmitted light: share to the ceiling, sun blocked, normal–normal transmittance; `None` when
+    /// unknown.
     pub light: Option<LightFigures>,
 }
 
-/// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below to
-/// light from above. \[°\]
+/// Profile angles of [`State::tau_profile`] and [`super::ProductRow::tau_profile`], rising from light from below
+/// (negative) to light from above (positive). \[°\]
 pub const PROFILE_ANGLES: [f64; 13] =
     [-85.0, -75.0, -60.0, -45.0, -30.0, -15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 85.0];
 
-/// Returns the transmittances for light in the vertical plane through the normal, at [`PROFILE_ANGLES`].
+/// Returns the transmittances τ for light from directions in the vertical plane through the normal, at
+/// [`PROFILE_ANGLES`].
 pub fn profile_transmittances(btdf: &Btdf) -> Vec<f64> {
     PROFILE_ANGLES
         .iter()
@@ -101,50 +107,50 @@ pub fn profile_transmittances(btdf: &Btdf) -> Vec<f64> {
         .collect()
 }
 
-/// Point of a control curve.
+/// Point of a control curve, which gives the state of a moving product for each profile angle of the sun.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvePoint {
     /// Profile angle of the sun. \[°\]
     pub profile_angle: f64,
-    /// Number of the requested state, e.g. the slat angle. \[°\]
+    /// Number of the state to be set, such as the slat angle. \[°\]
     pub value: f64,
 }
 
-/// Finding about one state of a product.
+/// Finding of a check about the data of one state of a product.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProductFinding {
     /// Key of the state.
     pub state: String,
     /// Severity of the finding.
     pub severity: Severity,
-    /// Stable identifier in kebab case.
+    /// Stable identifier of the kind of finding, in kebab case.
     pub code: String,
-    /// Text of the finding.
+    /// Text of the finding, as a sentence.
     pub message: String,
 }
 
-/// Product with everything but its datasets.
+/// Product of the catalogue, with everything but its datasets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {
-    /// Key that scenes use.
+    /// Key by which scenes name the product.
     pub key: String,
-    /// Name.
+    /// Name of the product.
     pub name: String,
     /// Maker; may be empty.
     pub manufacturer: String,
-    /// Kind, e.g. `venetian`.
+    /// Kind of product, such as `venetian`.
     pub kind: String,
-    /// Free text.
+    /// Description of the product, as free text.
     pub description: String,
-    /// Source of the data.
+    /// Provenance of the data: origin, author, method, source file.
     pub provenance: Provenance,
     /// Licence of the data, e.g. `CC BY 4.0`; may be empty.
     pub license: String,
     /// Tags to find the product by, sorted.
     pub tags: Vec<String>,
-    /// States in order, at least one.
+    /// States in their order, at least one.
     pub states: Vec<State>,
-    /// Points of the control curve, profile angle rising; empty without one.
+    /// Points of the control curve by rising profile angle; empty if the product has no curve.
     pub control_curve: Vec<CurvePoint>,
     /// Findings of readers and checks on import.
     pub findings: Vec<ProductFinding>,
@@ -156,29 +162,29 @@ pub struct Product {
     pub builtin: bool,
 }
 
-/// Label and number of a state on import.
+/// Label and number of a state, given on import.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StateName {
     /// Label of the state for people.
     pub label: String,
-    /// Number of the state: an angle \[°\] or another number.
+    /// Number of the state: an angle \[°\], or another number that orders the states; `None` without one.
     pub value: Option<f64>,
 }
 
-/// Product data for an import, beside the datasets.
+/// Product data for an import: everything but the datasets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct NewProduct {
     /// Requested key; `None`: made from the name. It is made unique in either case.
     pub key: Option<String>,
-    /// Name; empty: that of the first dataset.
+    /// Name of the product; if empty, that of the first dataset.
     pub name: String,
-    /// Maker; empty: that of the first dataset.
+    /// Maker of the product; if empty, that of the first dataset.
     pub manufacturer: String,
-    /// Kind, e.g. `venetian`; may be empty.
+    /// Kind of product, such as `venetian`; may be empty.
     pub kind: String,
-    /// Free text; empty: that of the first dataset.
+    /// Description of the product, as free text; if empty, that of the first dataset.
     pub description: String,
-    /// Source of the data.
+    /// Provenance of the data: origin, author, method, source file.
     pub provenance: Provenance,
     /// Licence of the data, e.g. `CC BY 4.0`; may be empty.
     pub license: String,
@@ -186,12 +192,12 @@ pub struct NewProduct {
     pub tags: Vec<String>,
     /// Names of the states, in the order of the datasets; empty: made from the datasets' state keys.
     pub states: Vec<StateName>,
-    /// Points of the control curve.
+    /// Points of the control curve by rising profile angle; empty if the product has no curve.
     pub control_curve: Vec<CurvePoint>,
     /// Text of the system description from which the data were computed; empty for other products.
     pub system: String,
-    /// Content hashes of the states as they were read, in their order, see [`super::content_of`]; empty: those of the
-    /// stored data.
+    /// Content hashes of the states as they were read from files, in their order, see [`super::content_of`]; if empty,
+    /// those of the stored data.
     pub contents: Vec<String>,
     /// Paths of the files that the product was read from, for reading them again.
     pub paths: Vec<String>,
@@ -202,12 +208,12 @@ pub struct NewProduct {
 pub struct Imported {
     /// Key of the new product.
     pub key: String,
-    /// Keys of products that hold one of the same datasets, byte for byte.
+    /// Keys of products that have a dataset with the same bytes.
     pub same_content_as: Vec<String>,
 }
 
-/// Returns a key from a name: lower-case ASCII letters and digits, other runs as one hyphen, other scripts by their
-/// sound. Of a name without letters the key is that of the maker with a hash of the name.
+/// Returns a key made from a name: lower-case ASCII letters and digits, other runs as one hyphen, other scripts
+/// transliterated by sound. For a name without letters the key is made from the maker and a hash of the name.
 pub(crate) fn slug(name: &str, maker: &str) -> String {
     let key = plain(name);
     if !key.is_empty() {
@@ -218,6 +224,7 @@ pub(crate) fn slug(name: &str, maker: &str) -> String {
     format!("{}-{}", maker.as_deref().unwrap_or("product"), &hash[..8])
 }
 
+/// Returns the letters and digits of a text in lower-case ASCII, with one hyphen in place of each other run.
 fn plain(name: &str) -> String {
     let mut key = String::new();
     // Apostrophes stand for soft signs: part of a word.

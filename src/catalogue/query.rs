@@ -1,27 +1,29 @@
-//! Query of a catalogue: search text, filters and order.
+//! Query of a catalogue: search text, filters and order of the results.
 
 use super::Origin;
 use crate::texts::{Text, catalogue as text, fixed, folded};
 
-/// Figure of a product, taken from the state that represents it.
+/// Figure of a product by which lists are filtered and sorted, taken from the state that represents the product; always
+/// a share of the incident flux, 0 … 1, or of the transmitted flux for [`Figure::ToCeiling`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Figure {
-    /// Visible transmittance of light from outside at normal incidence.
+    /// Visible transmittance τ of light from outside at normal incidence.
     TauNormal,
-    /// Visible transmittance of light from outside under uniform luminance.
+    /// Visible hemispherical transmittance τ: of light from outside under uniform luminance.
     TauHemispherical,
-    /// Share of the transmitted light that leaves upwards, to the ceiling.
+    /// Share of the transmitted flux that leaves upwards, to the ceiling, under a sky of uniform luminance.
     ToCeiling,
-    /// Share of direct sun blocked, 1 − τ, at 45° solar altitude, perpendicular to the façade in plan.
+    /// Share of direct sunlight that is not transmitted, 1 − τ, for the sun at 45° altitude, perpendicular to the
+    /// façade in plan.
     SunBlocked,
-    /// Share of light at normal incidence that is transmitted undeviated (normal–normal transmittance).
+    /// Normal–normal transmittance: share of the light at normal incidence that is transmitted undeviated.
     View,
 }
 
 impl Figure {
     /// All figures, in the order of lists.
     pub const ALL: [Self; 5] = [Self::TauNormal, Self::TauHemispherical, Self::ToCeiling, Self::SunBlocked, Self::View];
-    /// Lower limits of the ranges that are counted, rising. The last range has no upper limit.
+    /// Lower limits of the ranges in which values of a figure are counted, rising. The last range has no upper limit.
     pub const LIMITS: [f64; 6] = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8];
 
     /// Returns the translated label, in sentence case.
@@ -36,7 +38,7 @@ impl Figure {
         text.get()
     }
 
-    /// Returns the key on the command line and in JSON.
+    /// Returns the stable key that is used on the command line and in JSON.
     pub const fn word(self) -> &'static str {
         match self {
             Self::TauNormal => "tau-normal",
@@ -47,21 +49,21 @@ impl Figure {
         }
     }
 
-    /// Returns the counted range that begins at `LIMITS[place]`.
+    /// Returns the range of values that begins at `LIMITS[place]`.
     pub fn range(self, place: usize) -> Within {
         let high = Self::LIMITS.get(place + 1).copied().unwrap_or(f64::INFINITY);
         Within { figure: self, low: Self::LIMITS[place], high }
     }
 }
 
-/// Range of a figure.
+/// Range of values of a figure, as a filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Within {
-    /// Figure that the range limits.
+    /// Figure whose values the range limits.
     pub figure: Figure,
-    /// Smallest value inside the range.
+    /// Lower limit, which belongs to the range.
     pub low: f64,
-    /// Smallest value above the range, which is outside it.
+    /// Upper limit, which does not belong to the range.
     pub high: f64,
 }
 
@@ -71,7 +73,7 @@ impl Within {
         value >= self.low && value < self.high
     }
 
-    /// Returns the range as a translated text without the figure's name: `0.20 to 0.40`.
+    /// Returns the range as a translated text without the name of the figure, such as `0.20 to 0.40`.
     pub fn words(&self) -> String {
         match (self.low > 0.0, self.high.is_finite()) {
             (true, true) => text::between(fixed(self.low, 2), fixed(self.high, 2)),
@@ -82,26 +84,26 @@ impl Within {
     }
 }
 
-/// Order of a list of products.
+/// Criterion by which a list of products is sorted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
 pub enum Sort {
-    /// Best match first. Without words: the order of the catalogue, built-in products first.
+    /// Best match first. Without search words: the order of the catalogue, built-in products first.
     #[default]
     Match,
-    /// Name.
+    /// Name of the product.
     Name,
-    /// Maker, then name.
+    /// Maker, then name of the product.
     Maker,
-    /// Kind, then name.
+    /// Kind, then name of the product.
     Kind,
     /// Number of states.
     States,
-    /// Value of a figure.
+    /// Value of a figure, such as the transmittance at normal incidence.
     By(Figure),
 }
 
 impl Sort {
-    /// Returns all orders, as menus list them.
+    /// Returns all criteria, in the order of menus.
     pub fn all() -> impl Iterator<Item = Self> {
         let words = [Self::Match, Self::Name, Self::Maker, Self::Kind, Self::States];
         words.into_iter().chain(Figure::ALL.into_iter().map(Self::By))
@@ -120,7 +122,7 @@ impl Sort {
         text.get()
     }
 
-    /// Returns the key on the command line.
+    /// Returns the stable key that is used on the command line.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Match => "match",
@@ -133,11 +135,12 @@ impl Sort {
     }
 }
 
-/// Search for products. All filters that are set must hold; the default finds all products.
+/// Query of the catalogue. A product must pass all filters that are set; the default finds all products.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Query {
-    /// Words, each of which must occur in name, maker, kind, tags, key or description, whole or in part; German words
-    /// for kinds and tags count. A word that occurs nowhere is read as the nearest one that does. Any input is safe.
+    /// Search words, each of which must occur in name, maker, kind, tags, key or description, whole or in part; German
+    /// words for kinds and tags count. In place of a word that occurs nowhere the most similar one is searched for. Any
+    /// input is safe.
     pub text: String,
     /// Kinds, one of which the product must have. Empty: any kind.
     pub kinds: Vec<String>,
@@ -145,11 +148,12 @@ pub struct Query {
     pub manufacturers: Vec<String>,
     /// Tags, all of which the product must have.
     pub tags: Vec<String>,
-    /// Collections, one of which must contain the product. Empty: no restriction.
+    /// Names of collections, one of which must contain the product. Empty: no restriction.
     pub collections: Vec<String>,
-    /// Whether only products of [`Query::shown`] are found.
+    /// Whether only recently shown products are found, those of [`Query::shown`].
     pub recent: bool,
-    /// Keys of the products shown most recently, newest first. No filter: [`Query::recent`] and its count use it.
+    /// Keys of the products shown most recently, newest first. It is not a filter: [`Query::recent`] and the count of
+    /// recent products use it.
     pub shown: Vec<String>,
     /// Favourites only (`true`) or all others (`false`). `None`: both.
     pub favourite: Option<bool>,
@@ -157,45 +161,46 @@ pub struct Query {
     pub origin: Option<Origin>,
     /// Built-in products only (`true`) or the user's only (`false`). `None`: both.
     pub builtin: Option<bool>,
-    /// Products with several states only (`true`) or with one state (`false`). `None`: both.
+    /// Only products with several states (`true`) or only those with one state (`false`). `None`: both.
     pub moving: Option<bool>,
-    /// Ranges of figures. Of one figure any range may hold, of different figures all must hold.
+    /// Ranges of figures that a product must be in. Of several ranges of one figure any may hold; for different figures
+    /// all must hold.
     pub ranges: Vec<Within>,
-    /// Order of the list.
+    /// Criterion by which the results are sorted.
     pub sort: Sort,
-    /// Whether the order is reversed: falling values; with [`Sort::Match`] the poorest match comes at the top.
+    /// Whether the order is reversed: falling values, or the poorest match at the top with [`Sort::Match`].
     pub descending: bool,
-    /// Key of a product to which similar ones are found, by their effect on light. With [`Sort::Match`] the nearest
-    /// come at the top.
+    /// Key of a product; the results are then compared with it by their effect on light. With [`Sort::Match`] the most
+    /// similar ones come at the top.
     pub like: Option<String>,
 }
 
-/// Filter of a query.
+/// One of the filters that a query can set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Filter {
-    /// All words of the text.
+    /// All search words.
     Words,
-    /// Word of the text, by its index.
+    /// One search word, by its position in the text.
     Word(usize),
-    /// Kinds.
+    /// Kind of product.
     Kinds,
-    /// Makers.
+    /// Maker of the product.
     Manufacturers,
-    /// Tags.
+    /// Tags of the product.
     Tags,
-    /// Collections.
+    /// Collections that contain the product.
     Collections,
-    /// Products shown most recently.
+    /// Whether the product was shown recently.
     Recent,
-    /// Favourites.
+    /// Whether the product is a favourite.
     Favourite,
     /// Origin of the data, measured or computed.
     Origin,
-    /// Built-in products or the user's.
+    /// Whether the product is built in or the user's.
     Builtin,
-    /// Products with several states or with one.
+    /// Whether the product has several states or one.
     Moving,
-    /// Ranges of one figure.
+    /// Range of one figure.
     Range(Figure),
 }
 
@@ -214,7 +219,7 @@ fn typed(text: &str) -> impl Iterator<Item = &str> {
 }
 
 impl Query {
-    /// Whether `filter` is set.
+    /// Whether the query restricts the results by this filter.
     pub fn has(&self, filter: Filter) -> bool {
         match filter {
             Filter::Words => !self.text.trim().is_empty(),
@@ -232,7 +237,7 @@ impl Query {
         }
     }
 
-    /// Returns a copy in which `filter` is not set.
+    /// Returns a copy of the query in which one filter is not set.
     #[must_use]
     pub fn without(&self, filter: Filter) -> Self {
         let mut query = self.clone();
@@ -256,7 +261,7 @@ impl Query {
         query
     }
 
-    /// Returns a copy that keeps only the words and the order.
+    /// Returns a copy of the query with only its search words and its order.
     #[must_use]
     pub fn words_alone(&self) -> Self {
         Self {
@@ -268,12 +273,13 @@ impl Query {
         }
     }
 
-    /// Returns the filters that are set, except the words.
+    /// Returns the filters that the query sets, except the search words.
     pub fn filters(&self) -> impl Iterator<Item = Filter> {
         Filter::all().filter(|filter| *filter != Filter::Words && self.has(*filter))
     }
 
-    /// Returns the condition of a filter as a translated text: `moving`, `venetian or woven`, `τ normal 0.20 to 0.40`.
+    /// Returns the condition that the query sets for a filter, as a translated text such as `moving`, `venetian or
+    /// woven`, `τ normal 0.20 to 0.40`.
     pub fn words_of(&self, filter: Filter) -> String {
         let either = |list: &[String]| {
             let words: Vec<&str> = list
@@ -307,8 +313,8 @@ impl Query {
         }
     }
 
-    /// Returns the typed words in the form in which they are compared, each with the index of the text between spaces
-    /// it came from.
+    /// Returns the search words in the form in which they are compared with those of products, each with the index of
+    /// the typed word (between spaces) from which it came.
     pub(super) fn typed_words(&self) -> Vec<(usize, String)> {
         // Sixteen words are enough to distinguish products; more would only cost time.
         const MOST: usize = 16;

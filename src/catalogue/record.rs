@@ -1,4 +1,4 @@
-//! Products before they are stored: from datasets and product data to checked rows with figures.
+//! Products before they are stored: checked, with their figures and the bytes of their datasets.
 
 use super::described::{common_description, view};
 use super::product::slug;
@@ -10,13 +10,13 @@ use crate::texts::composed;
 use rayon::prelude::*;
 use std::collections::HashSet;
 
-/// Product with the bytes of its datasets, in the form of the tables.
+/// Product with the bytes of its datasets, ready to be stored in the tables.
 #[derive(Debug, Clone)]
 pub(super) struct Record {
     pub(super) product: Product,
     /// Hash and bytes of every dataset the product refers to.
     pub(super) datasets: Vec<(String, Vec<u8>)>,
-    /// Content of every state, see [`super::content_of`]; empty where it is not known.
+    /// Content hash of every state, see [`super::content_of`]; empty where it is not known.
     pub(super) contents: Vec<String>,
     /// Paths of the files that the product was read from.
     pub(super) paths: Vec<String>,
@@ -29,17 +29,18 @@ impl Record {
     }
 }
 
-/// Returns the checked record of a product; nothing is written yet.
+/// Checks a product and computes its figures and the bytes of its datasets; nothing is stored yet.
 pub(super) fn prepare(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, check)
 }
 
-/// Returns the record of a product whose data the program computed with findings of its own: without the checks of
-/// foreign data.
+/// Prepares a product whose data this program computed, with findings of its own: without the checks of data from other
+/// sources.
 pub(super) fn prepare_unasked(datasets: &[Dataset], meta: NewProduct) -> Result<Record, CatalogueError> {
     prepared(datasets, meta, |_| Vec::new())
 }
 
+/// Checks the product data, and prepares all states in parallel. `ask`: check that returns the findings of a dataset.
 fn prepared(
     datasets: &[Dataset],
     meta: NewProduct,
@@ -103,15 +104,16 @@ fn prepared(
     Ok(Record { product: product(meta, states, findings)?, datasets: blobs, contents, paths })
 }
 
-/// Results of preparing one state.
+/// Result of preparing one state.
 struct Ready {
     state: State,
     state_findings: Vec<ProductFinding>,
-    /// Hash and bytes.
+    /// Hash of the dataset and its bytes.
     dataset: (String, Vec<u8>),
     content: String,
 }
 
+/// Prepares one state: its dataset as bytes, its figures and its findings.
 fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -> Result<Ready, CatalogueError> {
     let Packed { hash, blob, content, dataset } = packed(given)?;
     let own = ask(&dataset);
@@ -134,14 +136,15 @@ fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -
     Ok(Ready { state, state_findings, dataset: (hash, blob), content })
 }
 
-/// Returns the figures of the transmitted light; the view is that of the description, where it gives a more exact one
-/// than patch-averaged data.
+/// Returns the figures of the transmitted light (share to the ceiling, sun blocked, normal–normal transmittance). The
+/// normal–normal transmittance is computed from the description where there is one, because that is more exact than
+/// patch-averaged data.
 pub fn light(transmission: &Btdf, described: Option<&DescribedState>) -> LightFigures {
     let own = LightFigures::of(transmission);
     LightFigures { view: described.and_then(view).unwrap_or(own.view), ..own }
 }
 
-/// Returns a state with the figures of its transmission.
+/// Returns a state to which the transmittances and figures of its BTDF are added.
 pub(super) fn figured(state: State, transmission: &Btdf, described: Option<&DescribedState>) -> State {
     State {
         tau_normal: Some(transmission.tau_normal()),
@@ -152,7 +155,7 @@ pub(super) fn figured(state: State, transmission: &Btdf, described: Option<&Desc
     }
 }
 
-/// Returns a state of which only the key and the name are known.
+/// Returns a state of which only key, label and number are known.
 pub(super) fn named_state(key: &str, named: StateName) -> State {
     let label = named.label.trim();
     State {
@@ -168,7 +171,7 @@ pub(super) fn named_state(key: &str, named: StateName) -> State {
     }
 }
 
-/// Creates a product from its product data and its states.
+/// Creates a product from its product data and its prepared states.
 pub(super) fn product(
     meta: NewProduct,
     states: Vec<State>,
@@ -200,17 +203,17 @@ pub(super) fn product(
     })
 }
 
-/// Dataset in its stored form.
+/// Dataset as bytes, and as it reads from these.
 pub(super) struct Packed {
     pub(super) hash: String,
     pub(super) blob: Vec<u8>,
     /// Content hash of the dataset, see [`super::content_of`].
     content: String,
-    /// Dataset read back from the bytes: all figures are those of what is stored (values rounded to f32).
+    /// Dataset read back from the bytes, so that all figures are those of the stored data (values rounded to f32).
     pub(super) dataset: Dataset,
 }
 
-/// Packs a dataset, and reads it back.
+/// Encodes a dataset as bytes, and reads it back.
 ///
 /// # Errors
 /// Returns an error if the dataset exceeds the limits of what is stored.

@@ -1,5 +1,5 @@
-//! Default rule of a product with several states, and the state that represents it in lists, in thumbnails and when it
-//! is set by hand.
+//! Default control rule of a product with several states, and the state that represents the product in lists, in
+//! thumbnails and when it is first set by hand.
 //!
 //! | product | rule | state that represents it |
 //! | --- | --- | --- |
@@ -20,52 +20,53 @@ use crate::compute::control::cut_off::SlatRow;
 use crate::compute::control::states::{nearest, towards_closed};
 use crate::compute::system::slats::Venetian;
 
-/// Profile angle of the sun at which the representative state is chosen: about that of an equinox noon on a south
+/// Profile angle of the sun for which the representative state is chosen: about that of an equinox noon on a south
 /// façade at 50° of latitude. \[°\]
 pub const TYPICAL_SUN: f64 = 40.0;
-/// Elevation to which mirrors redirect the sun, as in the rule without further settings. \[°\]
+/// Elevation to which specular slats redirect direct sunlight, as in the control rule with default settings. \[°\]
 const ELEVATION: f64 = 30.0;
-/// Difference below which transmittances count as equal.
+/// Difference below which transmittances τ count as equal.
 const SAME: f64 = 1e-6;
 
-/// Default rule of a product that was just chosen.
+/// Control rule that a newly chosen product gets by default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FirstRule {
-    /// State set by hand.
+    /// State set by hand, not by a rule.
     #[default]
     ByHand,
-    /// Control curve of the product.
+    /// Control curve of the product: slat angle over the profile angle of the sun.
     Curve,
     /// Cut-off control: the state that just blocks direct sun.
     CutOff,
-    /// Redirection of the sun to the ceiling by mirrors.
+    /// Redirection of direct sunlight to the ceiling by specular slats.
     Redirect,
 }
 
-/// Known numbers of a state.
+/// Number and transmittance of a state, as far as they are known.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Numbers {
-    /// Number of the state, an angle or another value. \[°\]
+    /// Number of the state: an angle \[°\] or another value.
     pub value: Option<f64>,
-    /// Visible transmittance under uniform luminance.
+    /// Visible hemispherical transmittance τ: of light from outside under uniform luminance.
     pub tau_hemispherical: Option<f64>,
 }
 
-/// Returns the default rule of a product and the index of the state that represents it. `system`: description, empty
-/// for others.
+/// Returns the default control rule of a product, and the index of the state that represents it. `curve`: control curve
+/// of the product, may be empty; `system`: text of its system description, empty for products without one.
 pub fn representative(states: &[Numbers], curve: &[CurvePoint], system: &str) -> (FirstRule, usize) {
     let values: Option<Vec<f64>> = states.iter().map(|state| state.value.filter(|value| value.is_finite())).collect();
     by_rule(values.as_deref(), curve, system).unwrap_or_else(|| (FirstRule::ByHand, most_open(states)))
 }
 
 impl Product {
-    /// Returns the default rule and the index of the state that represents the product.
+    /// Returns the default control rule of the product, and the index of the state that represents it.
     pub fn representative(&self) -> (FirstRule, usize) {
         let numbers = |state: &super::State| Numbers { value: state.value, tau_hemispherical: state.tau_hemispherical };
         representative(&self.states.iter().map(numbers).collect::<Vec<_>>(), &self.control_curve, &self.system)
     }
 
-    /// Whether a state can represent the product. Where a rule decides, only one can, whatever the data are.
+    /// Whether a state can represent the product. Where a control rule determines the representative state, only that
+    /// one can; otherwise any, depending on the transmittances.
     pub fn may_represent(&self, state: &str) -> bool {
         let values: Option<Vec<f64>> = self.states.iter().map(|one| one.value.filter(|v| v.is_finite())).collect();
         by_rule(values.as_deref(), &self.control_curve, &self.system)
@@ -73,6 +74,8 @@ impl Product {
     }
 }
 
+/// Returns the control rule and the representative state that it sets for the sun at [`TYPICAL_SUN`]; `None` if no rule
+/// applies. `values`: numbers of the states, such as slat angles. \[°\]
 fn by_rule(values: Option<&[f64]>, curve: &[CurvePoint], system: &str) -> Option<(FirstRule, usize)> {
     let values = values.filter(|values| values.len() > 1)?;
     if !curve.is_empty() {
@@ -93,7 +96,7 @@ fn by_rule(values: Option<&[f64]>, curve: &[CurvePoint], system: &str) -> Option
     Some((FirstRule::CutOff, state))
 }
 
-/// Whether the upper face reflects mostly specularly, so that the slats can redirect light.
+/// Whether the upper face of the slats reflects mostly specularly, so that they can redirect light.
 fn mirrors(blind: &Venetian) -> bool {
     blind.upper.mirror > 0.5 && blind.upper.mirror > blind.upper.diffuse
 }

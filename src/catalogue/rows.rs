@@ -1,4 +1,4 @@
-//! Rows of product lists, read from the tables: the one place that knows which columns they come from.
+//! Rows of product lists, read from the tables of the database.
 
 use super::query::Figure;
 use super::representative::{FirstRule, Numbers, representative};
@@ -9,7 +9,7 @@ use rusqlite::{Connection, Row};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
-/// Indices of the figures among the columns of a state, as they are verified.
+/// Figures, each with the index of its column in the table of states.
 const COLUMNS: [(Figure, usize); 5] = [
     (Figure::TauNormal, 6),
     (Figure::TauHemispherical, 7),
@@ -18,38 +18,39 @@ const COLUMNS: [(Figure, usize); 5] = [
     (Figure::View, 11),
 ];
 
-/// Row of a product list. Figures are those of the state that represents the product, see
+/// Product in a list. Its figures are those of the state that represents the product, see
 /// [`representative`](super::representative()).
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProductRow {
-    /// Key that scenes use.
+    /// Key by which scenes name the product.
     pub key: String,
-    /// Name.
+    /// Name of the product.
     pub name: String,
-    /// Maker; may be empty.
+    /// Maker of the product; may be empty.
     pub manufacturer: String,
-    /// Kind; may be empty.
+    /// Kind of product, such as `venetian`; may be empty.
     pub kind: String,
     /// Origin of the data, measured or computed.
     pub origin: Origin,
-    /// Keys of the states in order; one empty key for a product without states.
+    /// Keys of the states in their order; one empty key for a product with a single state.
     pub states: Vec<String>,
-    /// Index of the state that represents the product.
+    /// Index in `states` of the state that represents the product.
     pub representative: usize,
     /// Hash of the dataset of that state; `None` while it is not computed yet.
     pub dataset: Option<Arc<str>>,
-    /// Default rule of the product.
+    /// Control rule that the product gets by default when it is chosen.
     pub rule: FirstRule,
-    /// Visible transmittance of light from outside at normal incidence.
+    /// Visible transmittance τ of light from outside at normal incidence; `None` when unknown.
     pub tau_normal: Option<f64>,
-    /// Visible transmittance of light from outside under uniform luminance.
+    /// Visible hemispherical transmittance τ: of light from outside under uniform luminance; `None` when unknown.
     pub tau_hemispherical: Option<f64>,
-    /// Visible transmittances at the profile angles [`PROFILE_ANGLES`](super::PROFILE_ANGLES), rising from light from
-    /// below to light from above; empty when unknown.
+    /// Visible transmittances τ of light from outside at the profile angles [`PROFILE_ANGLES`](super::PROFILE_ANGLES),
+    /// rising from light from below to light from above; empty when unknown.
     pub tau_profile: Vec<f64>,
-    /// Share of the transmitted light that leaves upwards, to the ceiling; `None` when unknown.
+    /// Share of the transmitted flux that leaves upwards, to the ceiling, under a sky of uniform luminance; `None` when
+    /// unknown.
     pub to_ceiling: Option<f64>,
-    /// Share of direct sun blocked at 45° solar altitude (1 − τ); `None` when unknown.
+    /// Share of direct sunlight that is not transmitted at 45° solar altitude (1 − τ); `None` when unknown.
     pub sun_blocked: Option<f64>,
     /// Normal–normal transmittance; `None` when unknown.
     pub view: Option<f64>,
@@ -62,7 +63,7 @@ pub struct ProductRow {
 }
 
 impl ProductRow {
-    /// Returns a figure of the state that represents the product.
+    /// Returns a figure of the state that represents the product; `None` when unknown.
     pub const fn figure(&self, figure: Figure) -> Option<f64> {
         match figure {
             Figure::TauNormal => self.tau_normal,
@@ -78,18 +79,18 @@ impl ProductRow {
         self.states.len() > 1
     }
 
-    /// Returns the key of the state that represents the product; empty for a product without states.
+    /// Returns the key of the state that represents the product; empty for a product with a single state without key.
     pub fn state(&self) -> &str {
         self.states.get(self.representative).map_or("", String::as_str)
     }
 }
 
-/// Product with its row and its searchable texts.
+/// Product as the search needs it: its row in lists and its searchable texts.
 #[derive(Debug, Clone)]
 pub struct Sought {
     /// Row of the product in lists.
     pub row: Arc<ProductRow>,
-    /// Free text.
+    /// Description of the product, as free text.
     pub description: String,
     /// Tags to find the product by.
     pub tags: Vec<String>,
@@ -106,7 +107,7 @@ struct StateRow {
     dataset: Option<Arc<str>>,
 }
 
-/// Lists of the products by their ids.
+/// Lists that belong to products (tags, collections, states), by the products' ids.
 #[derive(Default)]
 struct Lists {
     states: HashMap<i64, Vec<StateRow>>,
@@ -118,7 +119,7 @@ struct Lists {
 }
 
 impl Lists {
-    /// Adds a row that is being verified to the lists.
+    /// Adds a row that is being verified to the lists. `table`: table that it comes from.
     fn take(&mut self, table: &str, product: i64, row: &Row<'_>) -> rusqlite::Result<()> {
         match table {
             "state" => {
@@ -142,8 +143,8 @@ impl Lists {
     }
 }
 
-/// Returns the products that are as they were stored, in the catalogue's order – built-in ones first in their own, then
-/// the user's by name – and the keys of the damaged ones.
+/// Returns the products whose rows are as they were stored, in the order of the catalogue – built-in ones first in
+/// theirs, then the user's by name – and the keys of the damaged ones.
 pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), CatalogueError> {
     let mut lists = Lists::default();
     let mut damaged = damaged_products(db, &mut |table, product, row| {
@@ -217,7 +218,7 @@ pub(super) fn read(db: &Connection) -> Result<(Vec<Sought>, Vec<String>), Catalo
     Ok((list, left_out))
 }
 
-/// Returns a stored list, e.g. of transmittances; empty when the text is not a list.
+/// Returns a list stored as JSON, such as transmittances; empty when the text is not a list.
 pub(super) fn list_of<T: serde::de::DeserializeOwned>(text: &str) -> Vec<T> {
     serde_json::from_str(text).unwrap_or_default()
 }

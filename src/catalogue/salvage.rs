@@ -1,4 +1,4 @@
-//! Recovery of a catalogue with broken pages: what can still be read of it is copied into a new one.
+//! Recovery of a catalogue with broken database pages: the rows that can still be read are copied into a new one.
 
 use super::builtin::is_builtin;
 use super::messages::sqlite_message;
@@ -8,7 +8,7 @@ use rusqlite::types::Value;
 use rusqlite::{Connection, params_from_iter};
 use std::collections::BTreeSet;
 
-/// Tables, those that others refer to at the front.
+/// Tables of the database, in an order in which each follows those to which it refers.
 const TABLES: [&str; 14] = [
     "meta",
     "product",
@@ -26,7 +26,7 @@ const TABLES: [&str; 14] = [
     "collection",
 ];
 
-/// Result of a recovery.
+/// Result of the recovery of a catalogue.
 pub(super) struct Saved {
     /// New catalogue with everything that could be read.
     pub(super) db: Connection,
@@ -34,7 +34,7 @@ pub(super) struct Saved {
     pub(super) lost: Vec<String>,
 }
 
-/// Reads every table from both ends, as far as its pages allow, into a new catalogue.
+/// Reads every table of a damaged database from both ends, as far as its pages allow, into a new catalogue.
 ///
 /// # Errors
 /// Returns an error if the new catalogue cannot be created.
@@ -97,7 +97,7 @@ pub(super) fn salvage(damaged: &Connection) -> Result<Saved, CatalogueError> {
     Ok(Saved { db, lost })
 }
 
-/// Makes all built-in products be added again when the file is opened.
+/// Causes all built-in products to be added again when the file is next opened.
 ///
 /// # Errors
 /// Returns an error if the database cannot be written.
@@ -106,7 +106,7 @@ fn reset_builtins(db: &Connection) -> Result<(), CatalogueError> {
     Ok(())
 }
 
-/// Copies the readable rows of a table: from the first row until an unreadable one, then from the last row.
+/// Copies the readable rows of a table: from the first row until an unreadable one, then from the last row backwards.
 fn copied(from: &Connection, to: &Connection, table: &str) -> rusqlite::Result<()> {
     let columns: Vec<String> = {
         // Those of both: a file of an older layout has fewer.

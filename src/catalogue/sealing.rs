@@ -1,12 +1,14 @@
-//! Seals for products that are stored without one: those of older layouts, and what is left of a file with broken pages.
+//! Hashes ("seals") for products that were stored without one: those of older layouts, and those recovered from a file
+//! with broken pages.
 
 use super::CatalogueError;
 use super::store::read_product;
 use super::verified::{results_are_sealed, seal_of_rows, seal_rows};
 use rusqlite::{Connection, Row};
 
-/// Seals products as they are, where what results depend on is what was stored: those of a file of an older layout, which
-/// have no seal of their rows, and those of which broken pages held some rows. Returns the keys of the latter.
+/// Stores seals (hashes of the present rows) for products without one, where everything on which results depend is as
+/// it was stored: products in a file of an older layout, which has no seals of rows, and products of which broken pages
+/// lost some rows. Returns the keys of the latter.
 ///
 /// # Errors
 /// Returns an error if SQLite fails.

@@ -1,4 +1,4 @@
-//! Search for products: the words of a catalogue's file in memory, read again when the file has changed.
+//! Search for products, with an index in memory that is renewed when the catalogue file has changed.
 
 use super::builtin::restore_damaged;
 use super::index::{Found, Index};
@@ -7,23 +7,25 @@ use super::{Catalogue, CatalogueError, ProductRow, Query, rows};
 use std::sync::Arc;
 
 impl Catalogue {
-    /// Returns the products that fit, in the requested order, with what could be chosen next. Default: best match at
-    /// the top; without words built-in products in their own order, then the user's by name.
+    /// Returns the products that match a query, in the requested order, with the values by which the search can be
+    /// narrowed. Default order: best match at the top; without search words built-in products in their own order, then
+    /// the user's by name.
     pub fn find(&self, query: &Query) -> Result<Found, CatalogueError> {
         Ok(self.index()?.find(query))
     }
 
-    /// Returns only the products of a search.
+    /// Returns only the list of products that match a query.
     pub fn search(&self, query: &Query) -> Result<Vec<ProductRow>, CatalogueError> {
         Ok(self.find(query)?.entries.into_iter().map(Arc::unwrap_or_clone).collect())
     }
 
-    /// Returns the values to filter by, with the number of products of each in the whole catalogue.
+    /// Returns the values by which products can be filtered, with the number of products of each in the whole
+    /// catalogue.
     pub fn facets(&self) -> Result<Facets, CatalogueError> {
         Ok(self.find(&Query::default())?.facets)
     }
 
-    /// Returns the index of the file as it is now.
+    /// Returns the search index of the catalogue file in its present revision.
     fn index(&self) -> Result<Arc<Index>, CatalogueError> {
         // One snapshot: what is read belongs together, and to the stamp.
         let snapshot = self.db.unchecked_transaction()?;

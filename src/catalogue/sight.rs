@@ -3,7 +3,7 @@
 use super::CatalogueError;
 use rusqlite::Connection;
 
-/// SQL condition that a product `p` is visible, for queries that have a WHERE or a join's ON.
+/// SQL condition that a product `p` is not hidden, for queries that already have a WHERE or the ON of a join.
 pub(super) const VISIBLE: &str = " AND NOT EXISTS (SELECT 1 FROM deleted WHERE product_key = p.key)";
 
 /// Whether a product is hidden.

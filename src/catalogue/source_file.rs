@@ -1,28 +1,28 @@
-//! Dataset files with their datasets and catalogue fields.
+//! Dataset files that were read for import, with their datasets and product data.
 
 use super::content::content_of;
 use crate::compute::btdf::Dataset;
 use crate::formats::{CatalogueFields, FormatError, catalogue_fields, read_dataset};
 
-/// Dataset file that was read.
+/// Dataset file that was read for import.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SourceFile {
     /// Name of the file, without folder.
     pub name: String,
-    /// Folder of the file; empty when unknown. States of a product lie together.
+    /// Folder of the file; empty when unknown. Only files in the same folder can be states of one product.
     pub folder: String,
     /// BLAKE3 hash of the file's bytes, 64 hexadecimal digits.
     pub hash: String,
-    /// Content hash of the datasets without their names: equal for files of the same data.
+    /// Content hash of the datasets without their texts: equal for files with the same data.
     pub content: String,
     /// Datasets of the file.
     pub datasets: Vec<Dataset>,
-    /// Product data in the file.
+    /// Product data in the file, such as kind, tags and provenance.
     pub fields: CatalogueFields,
 }
 
 impl SourceFile {
-    /// Reads a dataset file from its bytes.
+    /// Reads a dataset file. `name`: its file name; `bytes`: its content.
     ///
     /// # Errors
     /// Returns an error if the reader of the format refuses the bytes.

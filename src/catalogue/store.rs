@@ -1,4 +1,4 @@
-//! Reading and writing of products in the tables. Every change is one transaction.
+//! Reading and writing of products in the tables of the database. Every change is one transaction.
 
 use super::described::described_state;
 use super::history::set_paths;
@@ -11,12 +11,12 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
-/// Maximum number of decoded datasets kept by a connection.
+/// Maximum number of decoded datasets that a connection holds in memory.
 const RECENT: usize = 32;
-/// Rank of products that users add, after the built-in ones.
+/// Position in the order of the catalogue of products that users add, after the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
 
-/// Returns the key `wanted`, or the first of wanted-2, wanted-3, … that is free.
+/// Returns the key `wanted` if no product has it, else the first free one of wanted-2, wanted-3, ….
 pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, CatalogueError> {
     let mut statement = db.prepare_cached("SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)")?;
     let wanted: String = if wanted.is_empty() { "product".into() } else { wanted.chars().take(150).collect() };
@@ -30,7 +30,7 @@ pub(super) fn free_key(db: &Connection, wanted: &str) -> Result<String, Catalogu
     Ok(key)
 }
 
-/// Writes the bytes of a dataset under their hash: only once, but also over bytes that are damaged.
+/// Writes the bytes of a dataset under their hash, unless they are stored already; replaces bytes that are damaged.
 pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), CatalogueError> {
     tx.prepare_cached(
         "INSERT INTO dataset (hash, blob) VALUES (?1, ?2)
@@ -40,7 +40,7 @@ pub(super) fn put_blob(tx: &Transaction, hash: &str, blob: &[u8]) -> Result<(), 
     Ok(())
 }
 
-/// Writes a product under its key.
+/// Writes a new product under its key. `rank`: position in the order of the catalogue.
 pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(), CatalogueError> {
     let (p, from) = (&record.product, &record.product.provenance);
     tx.prepare_cached(
@@ -112,7 +112,7 @@ pub(super) fn insert(tx: &Transaction, record: &Record, rank: i64) -> Result<(),
     seal_rows(tx, id)
 }
 
-/// Writes the findings of a state, which is named by its product's row and its position.
+/// Writes the findings of a state, which is identified by the id of its product and its position among the states.
 pub(super) fn insert_findings<'a>(
     tx: &Transaction,
     [product, position]: [i64; 2],
@@ -125,19 +125,19 @@ pub(super) fn insert_findings<'a>(
     Ok(())
 }
 
-/// Removes the datasets that no state refers to any more.
+/// Removes the datasets to which no state refers any more.
 pub(super) fn sweep(tx: &Transaction) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM dataset WHERE NOT EXISTS (SELECT 1 FROM state WHERE state.dataset = dataset.hash)", [])?;
     Ok(())
 }
 
-/// Removes a product's rows, and the datasets that no state refers to any more.
+/// Removes the rows of a product, and the datasets to which no state refers any more.
 pub(super) fn delete(tx: &Transaction, key: &str) -> Result<(), CatalogueError> {
     tx.execute("DELETE FROM product WHERE key = ?", [key])?;
     sweep(tx)
 }
 
-/// Writes a product in place of the one that has its key.
+/// Writes a product in place of the stored one with the same key.
 pub(super) fn replace(tx: &Transaction, record: &Record) -> Result<(), CatalogueError> {
     let key = &record.product.key;
     let rank: i64 = tx.query_row("SELECT rank FROM product WHERE key = ?", [key], |row| row.get(0))?;
@@ -156,7 +156,7 @@ fn severity(word: &str) -> Severity {
     }
 }
 
-/// Returns a product without its lists, from a row of [`read_product`].
+/// Returns a product without its lists (states, tags, findings), from a row of [`read_product`].
 fn product_of_row(key: &str, row: &Row<'_>) -> rusqlite::Result<Product> {
     let provenance = Provenance {
         origin: Origin::from_word(&row.get::<_, String>(5)?),
@@ -206,7 +206,7 @@ fn state_of_row(row: &Row<'_>) -> rusqlite::Result<State> {
     })
 }
 
-/// Returns the product of a key, from one connection or transaction.
+/// Reads the product with a key from the tables.
 pub(super) fn read_product(db: &Connection, key: &str) -> Result<Product, CatalogueError> {
     // A favourite is asked for by key: built-in products get new rows when they are renewed, and stay favourites.
     let found = db
@@ -257,7 +257,7 @@ fn not_computed(product: &str, state: &str) -> CatalogueError {
     CatalogueError::NotComputed { product: product.to_owned(), state: state.to_owned() }
 }
 
-/// Returns a product with its datasets, all of which have to be present.
+/// Reads a product with all its datasets. Returns an error if one of them is missing.
 pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, CatalogueError> {
     let product = sealed(db, read_product(db, key)?)?;
     let mut datasets: Vec<(String, Vec<u8>)> = Vec::new();
@@ -275,7 +275,7 @@ pub(super) fn read_record(db: &Connection, key: &str) -> Result<Record, Catalogu
 }
 
 impl Catalogue {
-    /// Returns the product of a key. Returns an error if its data are not those that were stored.
+    /// Returns the product with a key. Returns an error if its data are not those that were stored.
     pub fn product(&self, key: &str) -> Result<Product, CatalogueError> {
         // One snapshot for all the reads.
         let snapshot = self.db.unchecked_transaction()?;
@@ -283,7 +283,7 @@ impl Catalogue {
         sealed(&snapshot, product)
     }
 
-    /// Returns the dataset of a state. `None`: the only state; an error when there are several.
+    /// Returns the dataset of a state. `state`: key of the state; `None` for a product with one state only.
     ///
     /// # Errors
     /// Returns an error if there is no such product or state; [`CatalogueError::NotComputed`] for a state that
@@ -308,8 +308,8 @@ impl Catalogue {
         self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 
-    /// Returns the dataset of a content hash with its product's description, from memory if it was used recently.
-    /// Products of the same content may have different descriptions.
+    /// Returns the dataset with a hash, from memory if it was used recently, with the description of its product.
+    /// Products with the same dataset may have different descriptions.
     fn dataset_of_hash(&self, hash: &str, described: Option<DescribedState>) -> Result<Arc<Dataset>, CatalogueError> {
         let mut recent = self.recent.borrow_mut();
         if let Some(at) = recent.iter().position(|(known, dataset)| known == hash && dataset.described == described)
@@ -330,12 +330,12 @@ impl Catalogue {
         Ok(dataset)
     }
 
-    /// Removes a product of the user permanently; [`Catalogue::delete_product`] only hides it.
+    /// Removes a product of the user permanently; [`Catalogue::delete_product`] only hides a product.
     pub fn remove_product(&mut self, key: &str) -> Result<(), CatalogueError> {
         self.remove_products(&[key.to_owned()])
     }
 
-    /// Marks or unmarks a favourite.
+    /// Marks a product as a favourite, or removes the mark.
     pub fn set_favourite(&mut self, key: &str, favourite: bool) -> Result<(), CatalogueError> {
         let tx = self.change()?;
         if !tx.query_row("SELECT EXISTS (SELECT 1 FROM product WHERE key = ?)", [key], |row| row.get::<_, bool>(0))? {
@@ -350,8 +350,8 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Checks every stored dataset of a product again: its bytes against their hash, energy, reciprocity. Data that are
-    /// not computed yet give a finding that says so.
+    /// Checks every stored dataset of a product again: its bytes by their hash, its energy balance and reciprocity.
+    /// Data that are not computed yet give a finding that says so.
     pub fn validate(&self, key: &str) -> Result<Vec<ProductFinding>, CatalogueError> {
         let snapshot = self.db.unchecked_transaction()?;
         let (mut findings, mut waiting) = (Vec::new(), 0);

@@ -1,4 +1,4 @@
-//! Products of subscribed folders: listed among the others, not changed here.
+//! Products from subscribed folders of packages: listed among the others, and not changeable in this catalogue.
 
 use super::exchange::{is_there, unpack};
 use super::history::{forget, note};
@@ -8,7 +8,7 @@ use super::{Catalogue, CatalogueError};
 use rusqlite::{Connection, OptionalExtension, Transaction};
 use std::collections::BTreeMap;
 
-/// Subscribed folder of packages.
+/// Folder of packages to which the catalogue is subscribed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Subscription {
     /// Path of the folder.
@@ -17,16 +17,16 @@ pub struct Subscription {
     pub products: usize,
 }
 
-/// Changes made by reading a package of a subscribed folder.
+/// Number of changes made by reading a package of a subscribed folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Synced {
     /// Number of products that were added or replaced.
     pub taken: usize,
-    /// Number of products removed because the package no longer holds them.
+    /// Number of products that were removed because the package no longer contains them.
     pub gone: usize,
 }
 
-/// Returns an error if the product comes from a subscribed folder.
+/// Returns an error if a product comes from a subscribed folder, so that it cannot be changed here.
 pub(super) fn refuse_subscribed(db: &Connection, key: &str) -> Result<(), CatalogueError> {
     match folder_of(db, key)? {
         Some(folder) => Err(CatalogueError::Subscribed { product: key.to_owned(), folder }),
@@ -39,7 +39,7 @@ fn folder_of(db: &Connection, key: &str) -> Result<Option<String>, CatalogueErro
     Ok(ask.query_row([key], |row| row.get(0)).optional()?)
 }
 
-/// Removes the products that came from a package, and returns their keys.
+/// Removes the products that were read from a package file of a subscribed folder, and returns their keys.
 fn remove_package(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<Vec<String>, CatalogueError> {
     let mut ask = tx.prepare_cached("SELECT product_key FROM subscribed WHERE folder = ? AND package = ?")?;
     let keys: Vec<String> = ask.query_map([folder, package], |row| row.get(0))?.collect::<Result<_, _>>()?;
@@ -52,8 +52,8 @@ fn remove_package(tx: &Transaction<'_>, folder: &str, package: &str) -> Result<V
 }
 
 impl Catalogue {
-    /// Subscribes to a folder of packages; its products are added when it is read. Does nothing if it is subscribed
-    /// already.
+    /// Subscribes to a folder of packages. Its products are added when the folder is next read. Does nothing if the
+    /// catalogue is subscribed to it already.
     ///
     /// # Errors
     /// Returns an error if the database cannot be written.
@@ -62,7 +62,7 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Ends a subscription and removes its products from the catalogue.
+    /// Ends the subscription to a folder, and removes its products from the catalogue. Returns their number.
     ///
     /// # Errors
     /// Returns an error if the folder is not subscribed.
@@ -82,7 +82,7 @@ impl Catalogue {
         Ok(gone)
     }
 
-    /// Returns the subscribed folders.
+    /// Returns the subscribed folders, each with the number of its products.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
@@ -97,7 +97,7 @@ impl Catalogue {
         Ok(ask.query_map([], row)?.collect::<Result<_, _>>()?)
     }
 
-    /// Returns the folder that a product comes from; `None` for products of other sources.
+    /// Returns the subscribed folder that a product comes from; `None` for products from other sources.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
@@ -105,7 +105,7 @@ impl Catalogue {
         folder_of(&self.db, key)
     }
 
-    /// Returns the packages of a folder as they were last read: file names with the hashes of their bytes.
+    /// Returns the packages of a subscribed folder as they were last read: file names with the hashes of their bytes.
     ///
     /// # Errors
     /// Returns an error if the database cannot be read.
@@ -113,8 +113,9 @@ impl Catalogue {
         packages(&self.db, folder)
     }
 
-    /// Adds a package of a folder, in place of the products that came from the file of this name before. `hash`: hash
-    /// of the file's bytes. A product that the user already has with the same content is not added twice.
+    /// Adds the products of a package file of a subscribed folder, in place of those that were read from a file of this
+    /// name before. `package`: file name; `hash`: hash of the file's bytes. A product that the user already has with
+    /// the same content is not added again.
     ///
     /// # Errors
     /// Returns an error if the bytes are not a package, or its datasets do not match their hashes; nothing changes
@@ -155,7 +156,7 @@ impl Catalogue {
         Ok(synced)
     }
 
-    /// Removes the products of a package that the folder no longer holds. Returns their number.
+    /// Removes the products of a package file that the subscribed folder no longer contains. Returns their number.
     ///
     /// # Errors
     /// Returns an error if the database cannot be written.

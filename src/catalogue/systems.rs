@@ -1,4 +1,4 @@
-//! Descriptions that come with the program: files under `assets/systems`.
+//! System descriptions that come with the program: files under `assets/systems`.
 
 use crate::compute::system::slats::Venetian;
 use crate::compute::system::stack::LayerSource;
@@ -7,11 +7,11 @@ use crate::formats::system_toml::{self, EACH_STATE, SystemFile, is_system_file};
 use include_dir::{Dir, File, include_dir};
 use std::sync::LazyLock;
 
-/// All files of the folder; a new one is included when this file is compiled again.
+/// Content of the folder of descriptions; a new file is included when this source file is compiled again.
 static FOLDER: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../assets/systems");
-/// Kinds in the order of the catalogue; others follow, stacks come last.
+/// Kinds of product in the order of the catalogue; other kinds follow, stacks come last.
 const ORDER: [&str; 7] = ["pane", "diffuser", "woven", "laser-cut-panel", "venetian", "prismatic", "perforated"];
-/// File of the product that a new window shows; it precedes all others.
+/// Description file of the product that a new window shows; it precedes all others.
 const FIRST: &str = "venetian-80-72.system.toml";
 
 /// File name and text of every built-in description, in the order of the catalogue.
@@ -31,7 +31,7 @@ pub static SYSTEMS: LazyLock<Vec<(&str, &str)>> = LazyLock::new(|| {
     list
 });
 
-/// Returns a built-in description by the name of its file.
+/// Returns the built-in description in the file with this name, parsed and as text; `None` if there is no such file.
 ///
 /// # Panics
 /// Never: the tests read every built-in description.
@@ -40,13 +40,15 @@ pub fn builtin_system(name: &str) -> Option<(SystemFile, &'static str)> {
     Some((system_toml::read(text.as_bytes()).expect("built-in descriptions are read by the tests"), text))
 }
 
-/// Returns the slats of a description, also of a moving layer of a built-in stack. `None` for vertical slats: makers'
-/// curves follow the profile angle of the vertical plane, which says nothing about their shadows.
+/// Returns the horizontal slats of a system description, also of the moving layer of a stack. `None` for vertical
+/// slats, whose shadows do not depend on the profile angle that control curves use, and for systems without slats.
+/// `system`: text of the description.
 pub fn blind_of(system: &str) -> Option<Venetian> {
     slats_of(system).filter(|(_, upright)| !upright).map(|(blind, _)| blind)
 }
 
-/// Returns the slats of a description, also vertical ones, and whether they are vertical.
+/// Returns the slats of a system description, and whether they are vertical; `None` for systems without slats.
+/// `system`: text of the description.
 pub fn slats_of(system: &str) -> Option<(Venetian, bool)> {
     let moving = moving_part(system)?;
     match moving.kind {
@@ -55,9 +57,9 @@ pub fn slats_of(system: &str) -> Option<(Venetian, bool)> {
     }
 }
 
-/// Returns the system that the states of a description belong to: of a stack its moving layer, rotated as the stack is;
-/// of anything else the system itself. `None` for a stack in which nothing moves or whose moving layer is not
-/// available, and for a text that cannot be read.
+/// Returns the system to which the states of a description belong: of a stack its moving layer, rotated like the stack;
+/// of anything else the system itself. `None` for a stack without a moving layer or whose moving layer is not
+/// available, and for a text that cannot be read. `system`: text of the description.
 pub fn moving_part(system: &str) -> Option<SystemDescription> {
     let system = system_toml::read(system.as_bytes()).ok()?.system;
     let SystemKind::Stack(layers) = system.kind else { return Some(system) };

@@ -1,5 +1,5 @@
-//! Verification that what is read from the file is what was stored: datasets by their hash, products by two seals, one
-//! of what results depend on and one of all that is shown.
+//! Verification that what is read from the file is what was stored: datasets by their hash, products by two hashes
+//! ("seals"), one of everything on which results depend, and one of everything that is shown.
 
 use super::{CatalogueError, Product};
 use crate::formats::dataset_blob::content_hash;
@@ -8,7 +8,7 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OptionalExtension as _, Row, params_from_iter};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Returns the bytes of a dataset, if they are those that were stored.
+/// Returns the bytes of the dataset with a hash, if they are those that were stored.
 ///
 /// # Errors
 /// [`CatalogueError::Damaged`] where they are not, or are missing.
@@ -20,13 +20,13 @@ pub(super) fn blob_of(db: &Connection, hash: &str) -> Result<Vec<u8>, CatalogueE
     if content_hash(&blob) == hash { Ok(blob) } else { Err(damaged("is not what was stored")) }
 }
 
-/// Returns the first 12 digits of a hash, enough for a person to compare.
+/// Returns the first 12 digits of a hash, for messages.
 pub(super) fn short(hash: &str) -> &str {
     hash.get(..12).unwrap_or(hash)
 }
 
-/// Returns the seal of a product: a hash of everything that results depend on, except its datasets. Its descriptive
-/// texts may change without changing the seal.
+/// Returns the seal of a product: a hash of everything on which results depend, except its datasets. It does not depend
+/// on the descriptive texts.
 pub(super) fn seal_of(product: &Product) -> String {
     let mut hash = blake3::Hasher::new();
     let mut text = |text: &str| {
@@ -44,7 +44,7 @@ pub(super) fn seal_of(product: &Product) -> String {
     hash.finalize().to_hex().to_string()
 }
 
-/// Tables with the rows of a product: name, key columns, the other columns.
+/// Tables with the rows of a product: name of the table, key columns, other columns.
 const ROWS: [[&str; 3]; 5] = [
     [
         "product",
@@ -62,11 +62,12 @@ const ROWS: [[&str; 3]; 5] = [
     ["tag", "product, tag", "tag"],
 ];
 
-/// Callback for each row that is verified: its table, its product, the columns in the order of [`ROWS`], key first.
+/// Callback for each row that is verified: name of its table, id of its product, and the columns in the order of
+/// [`ROWS`], key first.
 pub(super) type Visit<'a> = &'a mut dyn FnMut(&str, i64, &Row<'_>);
 
-/// Returns the stored values of every product by its id, or those of the product `id` only. Each row is shown to
-/// `visit`.
+/// Returns the stored values of every product by its id, or only those of the product `id`, as bytes for hashing. Each
+/// row is passed to `visit`.
 fn stored_values(db: &Connection, id: Option<i64>, visit: Visit<'_>) -> rusqlite::Result<BTreeMap<i64, Vec<u8>>> {
     let mut products: BTreeMap<i64, Vec<u8>> = BTreeMap::new();
     for [table, key, columns] in ROWS {
@@ -88,7 +89,7 @@ fn stored_values(db: &Connection, id: Option<i64>, visit: Visit<'_>) -> rusqlite
     Ok(products)
 }
 
-/// Returns the seal of the stored rows of one product.
+/// Returns the seal of a product's rows: a hash of everything that is shown of it.
 pub(super) fn seal_of_rows(db: &Connection, id: i64) -> Result<String, CatalogueError> {
     let values = stored_values(db, Some(id), &mut |_, _, _| {})?;
     Ok(shown_seal(values.get(&id).map_or(&[], Vec::as_slice)))
@@ -118,7 +119,8 @@ fn shown_seal(values: &[u8]) -> String {
     blake3::hash(values).to_hex().to_string()
 }
 
-/// Seals the rows of a product as they are. Every change of them ends with this; before it, what is there is verified.
+/// Stores the seal of a product's present rows. Every change of rows ends with this call, and begins with verifying
+/// them.
 ///
 /// # Errors
 /// Returns an error if SQLite fails.
@@ -128,8 +130,8 @@ pub(super) fn seal_rows(db: &Connection, id: i64) -> Result<(), CatalogueError> 
     Ok(())
 }
 
-/// Returns the ids of the products whose rows are not what was stored. Each row is shown to `visit`: what is listed is
-/// read in the same pass.
+/// Returns the ids of the products whose rows differ from what was stored. Each row is passed to `visit`, so that lists
+/// are read in the same pass.
 ///
 /// # Errors
 /// Returns an error if a page is broken, or SQLite fails otherwise.
@@ -145,7 +147,7 @@ pub(super) fn damaged_products(db: &Connection, visit: Visit<'_>) -> Result<BTre
     Ok(seals.into_par_iter().filter(is_damaged).map(|(id, _)| id).collect())
 }
 
-/// Whether what results depend on is what was stored, as far as its seal is known.
+/// Whether everything in a product on which results depend is what was stored, as far as its seal is known.
 ///
 /// # Errors
 /// Returns an error if SQLite fails.

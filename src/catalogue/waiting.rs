@@ -1,4 +1,4 @@
-//! States whose data are not computed yet: their list, and storing their data and figures.
+//! States of built-in products whose data are not computed yet: their list, and storing their data and figures.
 
 use super::described::described_state;
 use super::record::{Packed, Record, figured, light, named_state, packed};
@@ -11,16 +11,16 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{OptionalExtension, Transaction, params};
 use std::sync::Arc;
 
-/// State of a product, by its keys.
+/// Keys that identify a state of a product.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct StateKey {
     /// Key of the product.
     pub product: String,
-    /// Key of the state; empty for the only one of a product without states.
+    /// Key of the state; empty for a product with a single state without key.
     pub state: String,
 }
 
-/// Returns the transmission for light from outside, or that for light from inside where only this is known.
+/// Returns the transmission for light from outside, or for light from inside where only that is known.
 fn transmission(dataset: &Dataset) -> Option<&Btdf> {
     dataset.transmission().or(dataset.visible.transmission_back.as_ref())
 }
@@ -42,8 +42,8 @@ impl Catalogue {
         Ok(self.db.query_row(sql, [], |row| row.get::<_, i64>(0))?.unsigned_abs() as usize)
     }
 
-    /// Returns the state whose data have to be computed before [`Self::dataset`] can return its result for the same
-    /// arguments; `None` where they are present, and where there is no such state.
+    /// Returns the key of the state whose data have to be computed before [`Self::dataset`] can return its result for
+    /// the same arguments; `None` where the data are present, and where there is no such state.
     pub fn to_compute(&self, key: &str, state: Option<&str>) -> Result<Option<String>, CatalogueError> {
         let mut ask = self.db.prepare_cached(
             "SELECT s.key FROM state s JOIN product p ON p.id = s.product
@@ -60,8 +60,8 @@ impl Catalogue {
         held.iter().find(|(one, _)| *one == [key, state]).map(|(_, dataset)| Arc::clone(dataset))
     }
 
-    /// Stores the data of a built-in product's state as [`Self::put_state`] does. Where nothing can be stored – a
-    /// read-only place, a full disk – they are held as long as the catalogue is open.
+    /// Stores the computed data of a built-in product's state as [`Self::put_state`] does. Where nothing can be stored
+    /// – in a read-only folder, on a full disk – they are held in memory as long as the catalogue is open.
     pub fn keep_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
         match self.put_state(product, dataset) {
             Err(error) if error.of_place() => {
@@ -76,9 +76,9 @@ impl Catalogue {
         }
     }
 
-    /// Stores the data of a built-in product's state that was waiting for them. Where another program was faster, or
-    /// has put a newer product in its place, everything stays as it is. `product`: as it was when the data were
-    /// computed from its description.
+    /// Stores the computed data of a built-in product's state that lacked them. Changes nothing where another program
+    /// has stored them already, or has replaced the product by a newer one. `product`: the product as it was when the
+    /// data were computed from its description.
     pub fn put_state(&mut self, product: &Product, dataset: &Dataset) -> Result<(), CatalogueError> {
         // Packed before the lock is taken, so that other connections do not wait for it.
         let Packed { hash, blob, dataset: read, .. } = packed(dataset)?;
@@ -102,9 +102,9 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Computes the figures of the transmitted light for states stored by older programs without them. Stops when
+    /// Computes the figures of the transmitted light for states that older programs stored without them. Stops when
     /// `progress` is cancelled. Returns the number of states that got their figures. Data that cannot be read are
-    /// skipped: reading them later reports the error.
+    /// skipped; reading them later reports the error.
     pub fn fill_figures(&mut self, progress: &dyn Progress) -> Result<usize, CatalogueError> {
         let sql =
             "SELECT p.key, p.system, s.product, s.position, s.key, s.dataset FROM state s JOIN product p ON p.id = s.product
@@ -136,7 +136,8 @@ impl Catalogue {
     }
 }
 
-/// Writes the figures of the transmitted light of a state, which is named by its product's row and its position.
+/// Writes the figures of a state's transmitted light. The state is identified by the id of its product and its position
+/// among the states.
 pub(super) fn set_light(
     tx: &Transaction<'_>,
     [product, position]: [i64; 2],
@@ -147,7 +148,7 @@ pub(super) fn set_light(
     seal_rows(tx, product)
 }
 
-/// Adds dataset and figures to a state that waits for them; does nothing where it does not.
+/// Adds dataset and figures to a state that lacks them; does nothing if it has them.
 fn fill(
     tx: &Transaction<'_>,
     product: &Product,
@@ -186,8 +187,8 @@ fn fill(
     seal_rows(tx, place[0])
 }
 
-/// Adopts the data of a built-in product that another catalogue has computed, where this one waits for some of them and
-/// those that it holds are the same. Returns `false` for another product, or if nothing was missing.
+/// Copies the data of a built-in product that another catalogue has computed, where this catalogue lacks some of them
+/// and those that it has are the same. Returns `false` for another product, or if nothing was missing.
 pub(super) fn adopt(tx: &Transaction<'_>, record: &Record) -> Result<bool, CatalogueError> {
     let given = &record.product;
     let held = match read_product(tx, &given.key) {

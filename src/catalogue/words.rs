@@ -1,11 +1,11 @@
-//! Words as the search compares them: without case and marks, German words for what products say in English, and the
-//! distance between a typed word and one that may be meant.
+//! Words as the search compares them: without case and diacritics, German words for what products say in English, and
+//! the number of typing errors between a typed word and a word of the catalogue.
 
 /// Maximum length of a word that is compared, in characters.
 pub(super) const LONGEST: usize = 64;
 
-/// German words for kinds and tags: a search for "Raffstore" means an exterior venetian blind. A product that has the
-/// kind or the tag on the left is also found by the words on the right, written without marks.
+/// German words for kinds and tags, so that a search for "Raffstore" finds exterior venetian blinds: a product with the
+/// kind or tag on the left is also found by the words on the right, which are written without diacritics.
 const GERMAN: &[(&str, &str)] = &[
     ("venetian", "jalousie jalousien lamelle lamellen lamellenjalousie lamellenstore"),
     ("exterior venetian blind", "raffstore raffstoren aussenjalousie aussenraffstore"),
@@ -52,17 +52,18 @@ const GERMAN: &[(&str, &str)] = &[
     ("ideal", "ideal referenz"),
 ];
 
-/// Returns the German words for a kind or a tag; empty without any.
+/// Returns the German words for a kind or a tag; empty if there are none.
 pub(super) fn german(kind_or_tag: &str) -> &'static str {
     GERMAN.iter().find(|(english, _)| *english == kind_or_tag).map_or("", |(_, words)| words)
 }
 
-/// Splits a folded text into runs of letters and digits.
+/// Splits a text without case and diacritics into runs of letters and digits.
 pub(super) fn runs(folded: &str) -> impl Iterator<Item = &str> {
     folded.split(|c: char| !c.is_alphanumeric()).filter(|run| !run.is_empty())
 }
 
-/// Splits a run into parts where letters meet digits; empty for a run of letters only or digits only.
+/// Splits a run of letters and digits into parts where letters meet digits; empty for a run of letters only or digits
+/// only.
 pub(super) fn parts(run: &str) -> Vec<&str> {
     let mut parts = Vec::new();
     let mut start = 0;
@@ -81,13 +82,15 @@ pub(super) fn parts(run: &str) -> Vec<&str> {
     parts
 }
 
-/// Returns a word with written-out vowels (ae, oe, ue) as folding gives marked ones (a, o, u); `None` without any.
+/// Returns a word with the digraphs ae, oe, ue replaced by a, o, u, to match words whose umlauts lost their dots;
+/// `None` if it has none.
 pub(super) fn without_written_marks(word: &str) -> Option<String> {
     let plain = word.replace("ae", "a").replace("oe", "o").replace("ue", "u");
     (plain != word).then_some(plain)
 }
 
-/// Returns the number of typing errors that are tolerated in a word of this length. Words with digits are sizes: 0.
+/// Returns the number of typing errors that are tolerated in a typed word of this length; 0 for words with digits,
+/// which are sizes.
 pub(super) fn forgiven(word: &[char]) -> usize {
     match word.len() {
         _ if word.iter().any(char::is_ascii_digit) => 0,
@@ -97,8 +100,8 @@ pub(super) fn forgiven(word: &[char]) -> usize {
     }
 }
 
-/// Returns the fewest typing errors (a letter omitted, inserted, changed, or two swapped) between a typed word and the
-/// beginning of another; `None` above `most`.
+/// Returns the smallest number of typing errors (a letter omitted, inserted, changed, or two swapped) between a typed
+/// word and the beginning of another; `None` if above `most`.
 pub(super) fn distance(typed: &[char], word: &[char], most: usize) -> Option<usize> {
     let word = &word[..word.len().min(typed.len() + most)];
     let width = word.len() + 1;
@@ -123,7 +126,8 @@ pub(super) fn distance(typed: &[char], word: &[char], most: usize) -> Option<usi
     rows[1].iter().min().copied().filter(|least| *least <= most)
 }
 
-/// Returns the set of letters and digits of a word, one bit each: words that differ in many cannot be near each other.
+/// Returns the set of letters and digits of a word, one bit each: words whose sets differ in many bits cannot be
+/// similar.
 pub(super) fn letters(word: &[char]) -> u64 {
     word.iter().fold(0, |set, letter| set | 1 << (u32::from(*letter) % 61))
 }

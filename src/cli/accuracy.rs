@@ -1,4 +1,4 @@
-//! `cfs accuracy`: error against run time of a scene, by method and effort.
+//! `cfs accuracy`: error against computing time for a scene, by method and effort.
 
 use super::output::{number, print};
 use super::progress::TerminalProgress;
@@ -103,19 +103,19 @@ pub struct AccuracyArgs {
     /// Draw run time against error, and uncertainty against error, to a picture file
     #[arg(long, value_name = "FILE.svg|FILE.png")]
     pub plot: Option<PathBuf>,
-    /// Format of the picture without a name.
+    /// Option for the format of a picture written to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Test the annual simulation of `[year]` instead: its hours and its figures
+    /// Test the annual simulation of `[year]` instead: its hourly illuminances and its annual figures
     #[arg(long, conflicts_with_all = ["reference", "plot"])]
     pub year: bool,
-    /// Test the ranking of `[rank]` instead: its scores, and which products it separates
+    /// Test the ranking of `[rank]` instead: its scores, and which products it distinguishes
     #[arg(long, conflicts_with_all = ["reference", "plot", "year"])]
     pub rank: bool,
-    /// Rank the products found by these search words instead of those of rank.products
+    /// Rank the products found by these search words instead of those of rank.products; requires --rank
     #[arg(long, value_name = "WORDS", requires = "rank")]
     pub products: Option<String>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print the results as JSON
@@ -123,7 +123,7 @@ pub struct AccuracyArgs {
     pub json: bool,
 }
 
-/// Size of the picture. \[px\]
+/// Width and height of the picture. \[px\]
 const SIZE: [f64; 2] = [1280.0, 560.0];
 
 /// Runs `cfs accuracy`.
@@ -198,7 +198,8 @@ fn is_png(path: &Path) -> anyhow::Result<bool> {
     }
 }
 
-/// Returns every row with its series, and the reason why its errors are not given, if there is one.
+/// Returns every row of the table: a run with its series, and the reason why its errors are not stated, if there is
+/// one.
 fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<String>)> {
     accuracy.series.iter().flat_map(|series| {
         let reference = accuracy.reference(series.quantity);
@@ -209,7 +210,7 @@ fn rows(accuracy: &Accuracy) -> impl Iterator<Item = (&Series, &Rung, Option<Str
     })
 }
 
-/// Returns the origin of a reference in words: the name of the file, or the finest run.
+/// Returns the origin of the reference values as text: the name of the file, or the finest run.
 fn against(reference: Option<&Reference>) -> &str {
     match reference.map(|reference| &reference.origin) {
         Some(Origin::Given(name)) => name,
@@ -350,8 +351,8 @@ fn table(accuracy: &Accuracy) -> String {
     text
 }
 
-/// Returns the prediction errors of one system as JSON: for each direction left out, the share that every scheme
-/// misplaces, and the scheme that would have been better than responses, if any.
+/// Returns the prediction errors of one system as JSON: for each direction left out, the share of the flux that every
+/// interpolation scheme misplaces, and the scheme that would have been better than `responses`, if any.
 fn left_out(one: &LeavingOut) -> serde_json::Value {
     let by_scheme = |error: &dyn Fn(SunScheme) -> f64| -> serde_json::Map<String, serde_json::Value> {
         SunScheme::ALL.into_iter().map(|scheme| (scheme.key().to_owned(), json!(error(scheme)))).collect()

@@ -1,16 +1,16 @@
-//! `cfs accuracy SCENE --rank`: error against run time of a ranking.
+//! `cfs accuracy SCENE --rank`: error against computing time for a ranking.
 
 use super::output::{number, print};
 use crate::study::accuracy::ranking::{Effort, RankAccuracy, RankRung};
 use serde_json::json;
 use std::fmt::Write as _;
 
-/// Prints error and run time of a ranking, as a table or as JSON.
+/// Prints errors and computing times of a ranking with rising effort, as a table or as JSON.
 pub(super) fn print_accuracy(accuracy: &RankAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
-/// Returns the effort of a ranking in words.
+/// Returns the effort of one run of a ranking as text.
 fn setting(rung: &RankRung) -> String {
     match rung.effort {
         Effort::Cells => "data on their cells".to_owned(),
@@ -19,7 +19,7 @@ fn setting(rung: &RankRung) -> String {
     }
 }
 
-/// Returns a CSV table with one row per ranking.
+/// Returns a CSV table with one row per run of the ranking.
 pub(super) fn csv(accuracy: &RankAccuracy) -> anyhow::Result<String> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     writer.write_record([

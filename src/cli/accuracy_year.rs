@@ -1,4 +1,4 @@
-//! `cfs accuracy SCENE --year`: error against run time of a year.
+//! `cfs accuracy SCENE --year`: error against computing time for an annual simulation.
 
 use super::output::{number, print};
 use crate::study::accuracy::annual::{YearAccuracy, YearRung};
@@ -6,18 +6,18 @@ use crate::study::accuracy::words::percent;
 use serde_json::json;
 use std::fmt::Write as _;
 
-/// Prints error and run time of a year, as a table or as JSON.
+/// Prints errors and computing times of an annual simulation with rising effort, as a table or as JSON.
 pub(super) fn print_accuracy(accuracy: &YearAccuracy, as_json: bool) -> anyhow::Result<()> {
     if as_json { print(&format!("{:#}\n", to_json(accuracy))) } else { print(&table(accuracy)) }
 }
 
-/// Returns the effort of a year in words.
+/// Returns the effort of one run of an annual simulation as text.
 fn setting(rung: &YearRung) -> String {
     rung.target.map_or_else(|| "as the scene has it".to_owned(), |target| format!("error target {} %", 100.0 * target))
 }
 
-/// Returns a CSV table with one row per year. Every figure has three columns: value, stated uncertainty, and difference
-/// from the finest year.
+/// Returns a CSV table with one row per run of the annual simulation. Every annual figure has three columns: value,
+/// stated uncertainty, and difference from the run with the most effort.
 pub(super) fn csv(accuracy: &YearAccuracy) -> anyhow::Result<String> {
     let mut writer = ::csv::Writer::from_writer(Vec::new());
     let figures = accuracy.rungs.first().map_or(&[][..], |rung| &rung.figures);

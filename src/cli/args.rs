@@ -58,7 +58,7 @@ pub struct Arguments {
 }
 
 impl Arguments {
-    /// Returns the full paths of the files that the window opens.
+    /// Returns the full paths of the files that the window is to open.
     ///
     /// # Errors
     /// Returns an error for a word that is neither a command nor a file; it names the command that may be meant.
@@ -73,7 +73,7 @@ impl Arguments {
         self.open.iter().chain(&self.files).map(one).collect()
     }
 
-    /// Refuses files for the window beside a command, which takes its own files.
+    /// Checks that no files for the window are named before a subcommand, which names files separately.
     ///
     /// # Errors
     /// Returns an error if files for the window were named before a command.
@@ -88,7 +88,8 @@ impl Arguments {
     }
 }
 
-/// Returns the error for a word that cannot be opened, with the command that may be meant or what is expected.
+/// Returns the error for an argument that is neither a command nor a file, with the command that may be meant, or with
+/// the list of commands.
 fn not_there(path: &Path) -> anyhow::Error {
     let text = path.display().to_string();
     let plain = !text.contains(['/', '\\', '.']);
@@ -153,7 +154,7 @@ pub enum Command {
     Repair(RepairArgs),
     /// Convert a dataset to another format
     Convert(ConvertArgs),
-    /// Report size and error of the compact form of a dataset
+    /// Report size and error of a dataset compressed by wavelets
     Compact(CompactArgs),
     /// Compute a dataset from a description of geometry and material
     Goniophotometer(GoniophotometerArgs),

@@ -1,4 +1,4 @@
-//! Built-in products on the command line: their figures are known at once, their data are computed on demand.
+//! Built-in products on the command line: their figures are part of the program, their data are computed on demand.
 
 use super::output;
 use super::progress::TerminalProgress;
@@ -27,7 +27,7 @@ pub struct BuildArgs {
     /// Write the figures of all built-in products to a CSV file, too
     #[arg(long, value_name = "FILE.csv")]
     pub table: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print the numbers of products and states as JSON
@@ -35,8 +35,8 @@ pub struct BuildArgs {
     pub json: bool,
 }
 
-/// Computes the data of built-in products that `wanted` selects and the catalogue does not hold yet. Returns the number
-/// of computed states.
+/// Computes the data of those states of built-in products that `wanted` selects and the catalogue does not contain yet.
+/// Returns their number.
 fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> anyhow::Result<usize> {
     let waiting = catalogue.waiting()?.iter().filter(|one| wanted(one)).count();
     if waiting == 0 {
@@ -47,7 +47,7 @@ fn provided(catalogue: &mut Catalogue, wanted: impl Fn(&StateKey) -> bool) -> an
     Ok(complete(catalogue, wanted, &Library::default(), &TerminalProgress::new())?)
 }
 
-/// Computes the missing data of built-in products that are about to be used.
+/// Computes the missing data of the built-in products among `keys`, which are about to be used.
 pub(super) fn provide(catalogue: &mut Catalogue, keys: &[String]) -> anyhow::Result<()> {
     provided(catalogue, |one| keys.contains(&one.product)).map(|_| ())
 }

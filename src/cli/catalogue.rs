@@ -115,7 +115,7 @@ pub struct ExportArgs {
     /// Package to write (.cfsp)
     #[arg(long)]
     pub out: PathBuf,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }

@@ -1,4 +1,4 @@
-//! `cfs catalogue check`: verification that the catalogue holds what was stored in it, and its repair.
+//! `cfs catalogue check`: verification of the catalogue file, and its repair.
 
 use super::output::{print, print_text};
 use crate::catalogue::{Damage, Health, Place, check_file, default_path};
@@ -28,7 +28,8 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
-/// Error of a catalogue with damages. The program exits with status 1, unlike for a catalogue that it cannot read.
+/// Error for a catalogue file that is damaged. The program exits with status 1, unlike for a catalogue that it cannot
+/// read.
 #[derive(Debug, thiserror::Error)]
 #[error("{path}: {count} {}{}", if *.count == 1 { "damage" } else { "damages" }, if *.repair { "; `cfs catalogue check --repair` repairs what can be repaired" } else { " that cannot be repaired" })]
 pub struct Damaged {
@@ -57,7 +58,7 @@ pub(super) fn check(catalogue: Option<&Path>, args: &CheckArgs) -> anyhow::Resul
     Ok(())
 }
 
-/// Returns in words whether, and from what, a damage can be repaired.
+/// Returns a text that states whether, and from what, a damage can be repaired.
 const fn outlook(damage: &Damage) -> &'static str {
     match &damage.place {
         Place::Layout => "can be repaired",

@@ -1,4 +1,4 @@
-//! `cfs compact`: size and error of the compact form of a dataset, and the dataset in that form.
+//! `cfs compact`: size and error of a dataset compressed by wavelets, and the compressed dataset.
 
 use crate::cli::writing::Over;
 use crate::cli::{dataset_file, output};
@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-/// Error that the threshold limits.
+/// Measure of the compression error that the threshold limits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum By {
     /// Flux in wrong directions, in percent of τ
@@ -54,15 +54,15 @@ pub struct CompactArgs {
     /// Print JSON: one object, or an array of objects if there are several states
     #[arg(long)]
     pub json: bool,
-    /// Write the compact form of one state to a file
+    /// Write one state, compressed, to a file
     #[arg(long, value_name = "FILE.cfsd")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }
 
-/// Returns the criterion for the text of `--threshold`: a percentage, `archive` or `normal`.
+/// Parses `--threshold`: returns the limit of the compression error for a percentage, `archive` or `normal`.
 pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
     let made = match (by, threshold) {
         (By::Misplaced, "archive") => Criterion::ARCHIVE,
@@ -86,10 +86,10 @@ pub(super) fn criterion(by: By, threshold: &str) -> anyhow::Result<Criterion> {
     Ok(made)
 }
 
-/// Runs `cfs compact`: reads datasets, compacts them, and prints and writes the result.
+/// Runs `cfs compact`: reads datasets, compresses them by wavelets, and prints and writes the result.
 ///
 /// # Errors
-/// Returns an error if the input cannot be read, the threshold is out of range, or the data have no compact form.
+/// Returns an error if the input cannot be read, the threshold is out of range, or the data cannot be compressed.
 pub fn run(args: &CompactArgs) -> anyhow::Result<()> {
     let by_default = if args.by == By::Misplaced { "archive" } else { "1" };
     let criterion = criterion(args.by, args.threshold.as_deref().unwrap_or(by_default))?;

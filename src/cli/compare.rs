@@ -48,7 +48,7 @@ pub struct CompareArgs {
     /// Write the result to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print a CSV table with one row per figure
@@ -61,9 +61,9 @@ pub struct CompareArgs {
 
 /// Candidate of a comparison.
 enum One {
-    /// Scene, and the folder that its relative paths start from.
+    /// Scene, and the folder to which its paths are relative.
     Scene(Box<SceneFile>, PathBuf),
-    /// Product, of which the data alone are compared.
+    /// Product of which only the optical data are compared, without a scene.
     Data(SystemKeys),
 }
 
@@ -136,7 +136,7 @@ fn read(path: &Path) -> anyhow::Result<(SceneFile, PathBuf)> {
     Ok((read_scene_file(path)?, files::folder(path).to_owned()))
 }
 
-/// Returns a product given as KEY or KEY:STATE: its name, and the keys of a scene that fill an aperture with it.
+/// Returns a product given as KEY or KEY:STATE: its name, and the keys by which a scene selects it.
 fn product(what: &str, library: &Library) -> anyhow::Result<(String, SystemKeys)> {
     let (key, state) = what.split_once(':').map_or((what, None), |(key, state)| (key, Some(state)));
     let known = library

@@ -22,20 +22,21 @@ pub struct ConvertArgs {
     pub input: PathBuf,
     /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     pub output: PathBuf,
-    /// Format of a file without a name.
+    /// Option for the format of output to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
     /// Key of the state to convert, for files with several states
     #[arg(long)]
     pub state: Option<String>,
-    /// Function to write to .btdf.txt, which holds one: transmission_front, transmission_back, reflection_front or
-    /// reflection_back
+    /// Function to write to .btdf.txt, which contains only one: transmission_front, transmission_back, reflection_front
+    /// or reflection_back
     #[arg(long, value_parser = component)]
     pub component: Option<Component>,
-    /// Form of the functions in BSDF XML (default: tensor trees stay tensor trees, all others become matrices)
+    /// Representation of the functions in BSDF XML (default: tensor trees stay tensor trees, all others become
+    /// matrices)
     #[arg(long, value_enum)]
     pub tree: Option<TreeChoice>,
     /// Resolution of the tree, 2^LEVEL steps per coordinate: 1 to 6 for rank 4, 1 to 8 for rank 3 (default: that of the
@@ -48,7 +49,7 @@ pub struct ConvertArgs {
     pub tolerance: Option<f64>,
 }
 
-/// Forms of the functions in BSDF XML.
+/// Representation of the functions in BSDF XML: tensor trees or matrices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum TreeChoice {
     /// Tensor tree of rank 4
@@ -62,7 +63,7 @@ pub enum TreeChoice {
     Klems,
 }
 
-/// Returns a dataset as BSDF XML in the chosen form.
+/// Returns a dataset as a BSDF XML file in the chosen representation.
 fn in_form(dataset: &Dataset, choice: TreeChoice, args: &ConvertArgs) -> Result<Written, FormatError> {
     let rank = match choice {
         TreeChoice::Four => TreeRank::Four,
@@ -83,7 +84,7 @@ fn component(word: &str) -> Result<Component, String> {
 ///
 /// # Errors
 /// Returns an error if the input cannot be read, the state does not exist, or the output format is unknown or cannot
-/// hold the data. No output is left behind then.
+/// express the data. No output file is written then.
 pub fn run(args: &ConvertArgs) -> anyhow::Result<()> {
     let out_name = args.output.to_string_lossy();
     // Before the input is read: that may take seconds, a wrong extension is known at once.

@@ -1,4 +1,5 @@
-//! Panics of the program, as scripts see them: one sentence, a report, and a separate exit status.
+//! Panics of the program on the command line: one sentence on standard error, a report file, and a separate exit
+//! status.
 
 use crate::study::fault::{self, Fault, Report, without_folders};
 use crate::study::files;
@@ -8,13 +9,13 @@ use std::path::Path;
 /// Maximum size of a scene or description that a report repeats. \[bytes\]
 const LARGEST: u64 = 1 << 16;
 
-/// Internal error that stopped the program, as the sentence that reports it.
+/// Internal error (panic) that stopped the program; contains the sentence that reports it.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Stopped(String);
 
-/// Runs `work`, and turns a panic in it, in any thread, into an error. Files that were being written are removed, as
-/// after any error, and a report is written to the folder `reports`, if there is one.
+/// Runs `work` and converts a panic in it, in any thread, into an error. Incomplete output files are removed, and a
+/// report is written to the folder `reports`, if there is one.
 ///
 /// # Errors
 /// Returns the error of `work`, or [`Stopped`] after a panic.
@@ -25,7 +26,7 @@ pub fn guarded(reports: Option<&Path>, work: impl FnOnce() -> anyhow::Result<()>
     })
 }
 
-/// Returns a clause that names the report on a fault: the one that the window, which knows more, has already written,
+/// Returns the part of the message that names the report about a panic: the report of the window if it has written one,
 /// else a new one.
 fn left(fault: &Fault, reports: Option<&Path>) -> String {
     if let Some(report) = &fault.report {
@@ -45,7 +46,8 @@ fn left(fault: &Fault, reports: Option<&Path>) -> String {
     }
 }
 
-/// Returns name and text of the scenes and descriptions that were read, without those above `LARGEST`.
+/// Returns name and text of the scenes and system descriptions that were read, for the report; without those above
+/// `LARGEST`.
 fn inputs() -> Vec<(String, String)> {
     let small = |path: &Path| std::fs::metadata(path).is_ok_and(|meta| meta.is_file() && meta.len() <= LARGEST);
     let texts = files::inputs()

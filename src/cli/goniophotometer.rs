@@ -1,4 +1,4 @@
-//! `cfs goniophotometer`: datasets computed from a description of geometry and material.
+//! `cfs goniophotometer`: virtual goniophotometer, which computes datasets from a description of geometry and material.
 
 use super::writing::{Over, StreamFormat, refuse_stream};
 use super::{output, progress::TerminalProgress};
@@ -57,10 +57,10 @@ pub struct GoniophotometerArgs {
     /// File to write: .xml, .btdf.txt or .cfsp (default: print the summary only)
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Format of a file without a name.
+    /// Option for the format of output to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
     /// Basis of the incident directions
@@ -104,7 +104,7 @@ impl GoniophotometerArgs {
     }
 }
 
-/// Maximum number of values of all functions and states of a run, which are held until all are written: 4 GB.
+/// Maximum number of values of all functions and states of a run, which stay in memory until all are written: 4 GB.
 const MOST_VALUES: f64 = 5e8;
 
 /// Destination of the results: files of single states, or a package.
@@ -118,7 +118,8 @@ enum Target<'a> {
 ///
 /// # Errors
 /// Returns an error if the description cannot be read or computed, the state does not exist, or the format is unknown.
-/// Finished states of an interrupted run are kept beside the output and reused by the next run; nothing else is left.
+/// Finished states of an interrupted run are stored beside the output and reused by the next run; no other files are
+/// written.
 pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> {
     let name = args.system.display().to_string();
     let request = args.request()?;
@@ -191,7 +192,7 @@ pub fn run(args: &GoniophotometerArgs, library: &Library) -> anyhow::Result<()> 
     output::print(&summary?)
 }
 
-/// Computes the states, writes them, and returns the summary.
+/// Computes the requested states, writes them, and returns the summary as text.
 fn results(
     args: &GoniophotometerArgs,
     library: &Library,
@@ -272,7 +273,8 @@ fn write_results(
     }
 }
 
-/// Converts functions that are known at every angle to values on the requested cells, which text files hold.
+/// Converts functions that are stored as closed forms to values on the requested cells, since text files contain
+/// values.
 fn on_cells(dataset: &mut Dataset, request: &Request) {
     for component in dataset.visible.components() {
         let Some(btdf) = dataset.visible.get(component) else { continue };
@@ -284,12 +286,13 @@ fn on_cells(dataset: &mut Dataset, request: &Request) {
     }
 }
 
-/// Returns the file of a state: `blind.xml`, or `blind_45.xml` beside those of other states.
+/// Returns the path of a state's file: `blind.xml`, or `blind_45.xml` if several states are written.
 fn path_of_state(path: &Path, state: &str, several: bool) -> PathBuf {
     if several { path_with(path, state) } else { path.to_owned() }
 }
 
-/// Returns the file of a function: the state's file for the front transmission, else with the function in its name.
+/// Returns the path of a function's file: that of the state for the front transmission, else with the function in its
+/// name.
 fn path_of_component(path: &Path, component: Component) -> PathBuf {
     match component {
         Component::TransmissionFront => path.to_owned(),
@@ -297,7 +300,7 @@ fn path_of_component(path: &Path, component: Component) -> PathBuf {
     }
 }
 
-/// Returns `blind_45.xml` for `blind.xml` and `45`. A name need not be UTF-8; the extension of a format is.
+/// Returns `blind_45.xml` for `blind.xml` and `45`. The name need not be UTF-8.
 fn path_with(path: &Path, word: &str) -> PathBuf {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let extension = &name[Format::stem(&name).len()..];

@@ -1,4 +1,4 @@
-//! `cfs catalogue import`: files, folders, archives and packages into the catalogue.
+//! `cfs catalogue import`: import of files, folders, archives and packages into the catalogue.
 
 use super::output::print_text;
 use crate::catalogue::{Catalogue, Gathered, Grouping, SourceFile, Stored, content_of, gather};
@@ -43,7 +43,7 @@ pub struct ImportArgs {
     /// Files that become states of one product
     #[arg(long, value_enum, default_value_t, conflicts_with = "name")]
     pub group: Group,
-    /// Storage of the values (default: lossless for datasets below 1 MB, else archive)
+    /// Compression of the values (default: lossless for datasets below 1 MB, else archive)
     #[arg(long, value_enum)]
     pub compact: Option<Compactness>,
 }
@@ -70,19 +70,19 @@ impl Group {
     }
 }
 
-/// Storage of the values of indicatrices.
+/// Compression of the values of indicatrices in the catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Compactness {
-    /// Compact form with at most 0.5 % of the flux of any indicatrix misplaced
+    /// Compression by wavelets with at most 0.5 % of the flux of any indicatrix in wrong directions
     Archive,
-    /// Compact form with at most 1.5 % of the flux of any indicatrix misplaced
+    /// Compression by wavelets with at most 1.5 % of the flux of any indicatrix in wrong directions
     Normal,
     /// Every value, rounded to 7 digits
     Lossless,
 }
 
-/// Returns a product with the name, maker, kind and tags of the arguments, else those of its files. A product without a
-/// name gets that of its first file, with a note.
+/// Returns a product with the name, maker, kind and tags of the arguments; values that the arguments omit are those of
+/// its files. A product without a name gets that of its first file, with a note.
 fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     let meta = &mut product.meta;
     let over = |field: &mut String, asked: &String| {
@@ -101,7 +101,7 @@ fn described(args: &ImportArgs, mut product: Gathered) -> Gathered {
     product
 }
 
-/// Returns a dataset in the form in which the catalogue stores it.
+/// Returns a dataset compressed as the arguments request it for the catalogue.
 fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
     let storage = match args.compact {
         None => return Ok(stored_by_default(dataset)),
@@ -112,8 +112,8 @@ fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
     stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
 }
 
-/// Prints on standard error which files are skipped, cannot be read, or hold the same data. Returns an error for a file
-/// that holds no product, such as a scene.
+/// Prints on standard error which files are skipped, cannot be read, or contain the same data. Returns an error for a
+/// file without a product, such as a scene.
 fn report_files(taken: &Taken) -> anyhow::Result<()> {
     if let Some((single, path)) = taken.singles.first() {
         bail!(
@@ -137,7 +137,7 @@ fn report_files(taken: &Taken) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Adds the products of files, folders and archives to the catalogue, in one step, and prints their keys.
+/// Adds the products of files, folders and archives to the catalogue, in one transaction, and prints their keys.
 pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     // Everything is read before anything is stored.
     let taken = import_files(&args.files, SourceFile::read, &Silent);

@@ -40,10 +40,10 @@ pub struct InfoArgs {
     pub json: bool,
 }
 
-/// Describes every file that can be read, and reports the others on standard error.
+/// Prints a description of every file that can be read, and reports the others on standard error.
 ///
 /// # Errors
-/// Returns the error of the last file that cannot be read, one line with the file's name and the place in it.
+/// Returns the error of the last file that cannot be read, one line with the file's name and the position in it.
 pub fn run(args: &InfoArgs, library: &Library) -> anyhow::Result<()> {
     let several = args.files.len() > 1;
     let mut values = Vec::new();
@@ -74,7 +74,7 @@ pub fn run(args: &InfoArgs, library: &Library) -> anyhow::Result<()> {
     failed.map_or(Ok(()), Err)
 }
 
-/// Reads one file, of the kind that its name or its bytes show, and describes it.
+/// Reads one file, whose kind is recognised by its name or its bytes, and returns its description.
 fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Content> {
     if let Some(content) = luminaire_info::describe(file, as_json)? {
         return Ok(content);
@@ -93,7 +93,8 @@ fn describe(file: &Path, as_json: bool, library: &Library) -> anyhow::Result<Con
     })
 }
 
-/// Returns the description of each dataset by `say`, called once for equal datasets: many states may name one file.
+/// Returns the description of each dataset, made by `say`, which is called once for equal datasets (several states may
+/// have the same data).
 fn once_each<T: Clone>(datasets: &[Dataset], say: impl Fn(&Dataset, &[Diagnosis]) -> T) -> Vec<T> {
     let mut descriptions: Vec<(&Dataset, T)> = Vec::new();
     let mut description_of =
@@ -163,7 +164,7 @@ fn thermal_json(thermal: &Thermal) -> Value {
 }
 
 /// Returns a finding as JSON: what was found, its meaning, and the repair that it proposes for `cfs repair` (null:
-/// none). `sure`: whether the repair is certain, so that `auto` makes it.
+/// none). The key `sure` states whether the repair is certain, so that `auto` makes it.
 pub(super) fn finding_json(one: &Diagnosis) -> Value {
     json!({
         "severity": one.finding.severity.word(), "code": one.finding.code, "message": one.finding.message,
@@ -178,8 +179,9 @@ fn hemispherical(dataset: &Dataset) -> Value {
     Value::Object(pairs.collect())
 }
 
-/// Returns τ of every incident direction as JSON. Cells of a basis are in its order, with the angles of their centres
-/// and the azimuth as the basis counts it; directions of a list are in its order, with the angles of the façade frame.
+/// Returns the direct-hemispherical transmittance τ of every incident direction as JSON: for the cells of a basis in
+/// its order, with the angles of their centres and azimuths as the basis counts them; for a list of directions in its
+/// order, with angles in the façade frame. \[°\]
 fn tau_dir_hem(btdf: &Btdf) -> Value {
     if let Some(Scattered::Directions(data)) = &btdf.scattered {
         let rows = data.incident().iter().map(|direction| {
@@ -208,7 +210,7 @@ fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9
 }
 
-/// Returns the reciprocity error between the transmissions of both sides; `None` unless the file itself holds them.
+/// Returns the reciprocity error between the transmissions of both sides; `None` unless the file contains both.
 fn reciprocity(dataset: &Dataset) -> Option<f64> {
     if !dataset.derived.is_empty() {
         return None;
@@ -237,7 +239,7 @@ fn resolution(btdf: &Btdf) -> String {
     }
 }
 
-/// Returns the source of the solar properties and the solar transmittances in words.
+/// Returns the source of the solar properties, and the solar transmittances, as text.
 fn solar(dataset: &Dataset) -> String {
     let source = dataset.solar_source();
     match dataset.transmission_of(BandName::Solar) {
@@ -320,7 +322,8 @@ fn to_text(dataset: &Dataset, found: &[Diagnosis]) -> String {
     text
 }
 
-/// Returns a table of τ at 0, 30 and 60° incidence from four sides, in the façade frame.
+/// Returns a table, as text, of the direct-hemispherical transmittance τ at incidences of 0°, 30° and 60° from the
+/// right, from above, from the left and from below.
 fn tau_table(btdf: &Btdf) -> String {
     let mut text = String::from("τ, light from            right      above      left       below\n");
     for theta in [0.0_f64, 30.0, 60.0] {

@@ -1,4 +1,4 @@
-//! `cfs catalogue rename`, `delete` and `restore`: products after they are stored.
+//! `cfs catalogue rename`, `delete`, `restore` and `history`: changes of products in the catalogue.
 
 use super::output::{print, print_text};
 use crate::catalogue::{Catalogue, CatalogueError, Words};
@@ -93,7 +93,7 @@ pub(super) fn history(catalogue: &Catalogue, args: &HistoryArgs) -> anyhow::Resu
     print_text(&text)
 }
 
-/// Changes name, maker, kind, tags or licence of a product; those that are not specified stay.
+/// Changes name, maker, kind, tags or licence of a product; those that are not specified stay unchanged.
 pub(super) fn rename(catalogue: &mut Catalogue, args: &RenameArgs) -> anyhow::Result<()> {
     let product = catalogue.product(&args.key)?;
     let words = [&args.name, &args.manufacturer, &args.kind, &args.license];

@@ -3,7 +3,7 @@
 use crate::texts::Language;
 use std::str::FromStr;
 
-/// Language of a picture or report.
+/// Language of an exported picture or report, `en` or `de` on the command line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReportLanguage(pub Language);
 

@@ -59,10 +59,10 @@ pub struct LidArgs {
     /// File to write: .ldt (EULUMDAT), .ies (LM-63), .csv (table), .png or .svg (polar diagram)
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Format of a file without a name.
+    /// Option for the format of output to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Edition of LM-63 for .ies
@@ -95,7 +95,7 @@ pub struct LidArgs {
     pub json: bool,
 }
 
-/// Edition of LM-63.
+/// Edition of IES LM-63 in which an .ies file is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum EditionArg {
     /// LM-63-2002, the edition that most programs read
@@ -106,7 +106,7 @@ pub enum EditionArg {
     Y2019,
 }
 
-/// Orientation of the aperture in the file.
+/// Orientation of the aperture relative to the C planes of the luminaire file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum AimArg {
     /// Façade as built: γ = 0° is downwards, C0 points into the room
@@ -182,7 +182,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
     }
 }
 
-/// Files that were written so far.
+/// Files that a run of `cfs lid` has written so far, to be removed after an error.
 struct Written {
     over: Over,
     kind: FileKind,
@@ -192,7 +192,7 @@ struct Written {
 }
 
 impl Written {
-    /// Writes files, all of them or none.
+    /// Writes files: all of them, or none after an error.
     fn put(&mut self, list: &[(PathBuf, FileKind, &[u8])]) -> Result<()> {
         let new: Vec<_> = list.iter().filter(|(path, ..)| !path.exists()).map(|(path, ..)| path.clone()).collect();
         self.over
@@ -202,7 +202,7 @@ impl Written {
         Ok(())
     }
 
-    /// Removes the files that are new. Files that cannot be removed stay: the earlier error is the one to report.
+    /// Removes the new files after an error. Files that cannot be removed stay, without a report.
     fn undo(self) {
         for path in self.new {
             drop(std::fs::remove_file(path));
@@ -210,12 +210,13 @@ impl Written {
     }
 }
 
-/// Returns whether the files need an index, which a single file does not.
+/// Whether the luminaire files need an index of their positions, which a single file does not.
 fn needs_index(options: &LuminaireOptions, members: &[Member]) -> bool {
     options.tiles != Tiles::None || members.iter().any(|member| !member.name.is_empty())
 }
 
-/// Computes and writes all members of a series, or the scene alone. Returns a summary of each.
+/// Computes and writes the luminaire files of all members of a series, or of the scene alone. Returns a summary of each
+/// as JSON.
 fn all(
     args: &LidArgs,
     options: &LuminaireOptions,
@@ -301,7 +302,8 @@ fn luminaire_options(args: &LidArgs) -> Result<LuminaireOptions> {
     Ok(LuminaireOptions { format, aim, step, tiles: args.tiles, without_beam: args.without_beam })
 }
 
-/// Returns the name of a file beside `out`, with the tag of a member of a series and the number of a tile.
+/// Returns the name of a luminaire file: that of `out` with the tag of a member of a series and the number of a tile
+/// added.
 fn file_name(out: &Path, tag: &str, tile: Option<usize>) -> String {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let tag = if tag.is_empty() { String::new() } else { format!("_{tag}") };

@@ -1,4 +1,4 @@
-//! Summary of the luminaires that `cfs lid` has made, as JSON and in sentences.
+//! Summary of the luminaires that `cfs lid` has written, as JSON and as sentences.
 
 use crate::compute::lid::c_gamma::Aim;
 use crate::study::luminaire_series::Member;
@@ -37,7 +37,8 @@ pub(super) fn summary(out: &Path, aperture: u32, set: &LuminaireSet, member: &Me
     })
 }
 
-/// Prints the figures of the luminaires as sentences; `without_beam`: whether the direct sun was to be left out.
+/// Prints the figures of the luminaires as sentences; `without_beam`: whether the undeviated direct sun was to be left
+/// out of the files.
 pub(super) fn report(without_beam: bool, set: &LuminaireSet, member: &Member) {
     let of = if member.name.is_empty() { String::new() } else { format!("{}: ", member.name) };
     report!(

@@ -1,4 +1,4 @@
-//! `cfs limits`: the table of limits.
+//! `cfs limits`: table of the limits of files, scenes and computations.
 
 use super::output::print;
 use crate::compute::limits::TABLE;

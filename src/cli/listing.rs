@@ -131,7 +131,7 @@ pub(super) fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "-".to_owned(), |value| format!("{value:.3}"))
 }
 
-/// Prints on standard error which words were read as others, and which damaged products were restored or left out.
+/// Prints on standard error which search words were corrected, and which damaged products were restored or left out.
 pub(super) fn report_notes(found: &Found) {
     for (typed, read_as) in &found.read_as {
         report!("note: no product has \"{typed}\"; read as \"{read_as}\"");

@@ -1,5 +1,5 @@
-//! `cfs info` of luminaire files: maker, flux, size and planes; and of an index of such files: their positions, and the
-//! aperture that they form.
+//! `cfs info` for luminaire files (maker, flux, size, planes) and for an index of luminaire files (positions, aperture
+//! that they form).
 
 use super::output::Content;
 use crate::compute::direction::Surface;
@@ -11,13 +11,14 @@ use serde_json::json;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Maximum difference of intensities that counts as symmetric, relative to the peak.
+/// Maximum difference between intensities of mirror-image directions that counts as symmetric, relative to the largest
+/// intensity.
 const SAME: f64 = 1e-4;
 
 /// Describes a luminaire file or an index of luminaire files; `None` for files of other extensions.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read: one line with the file's name and the place in it.
+/// Returns an error if the file cannot be read: one line with the file's name and the position in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
     if files::name_with_extension(path)?.to_ascii_lowercase().ends_with(INDEX) {
         return index(path, as_json).map(Some);
@@ -47,7 +48,8 @@ fn index(path: &Path, as_json: bool) -> anyhow::Result<Content> {
     Ok(Content::of(as_json, to_json, to_text))
 }
 
-/// Returns the flux of beams of the sun in the files, and that of the direct sun left out of them. \[lm\]
+/// Returns the luminous flux of the sunbeams that the files contain, and that of the undeviated direct sun left out of
+/// them. \[lm\]
 fn beams(one: &LuminaireAperture) -> [f64; 2] {
     // An empty sum is −0.
     let beam = one.rows.iter().map(|row| row.beam).sum::<f64>() + 0.0;
@@ -124,13 +126,14 @@ const fn photometry(luminaire: &Luminaire) -> &'static str {
     }
 }
 
-/// Returns the flux of the table; `None` for a single plane of type A or B, which does not determine it. \[lm\]
+/// Returns the luminous flux of the intensity table; `None` for a single plane of type A or B, which does not determine
+/// it. \[lm\]
 fn flux(luminaire: &Luminaire) -> Option<f64> {
     let is_known = luminaire.photometry == Photometry::C || luminaire.c_deg.len() > 1;
     is_known.then(|| luminaire.flux())
 }
 
-/// Returns the luminous opening in words: the diameter of a circle, else the shape and its sizes.
+/// Returns the luminous opening as text: the diameter of a circle, else the shape and its sizes.
 fn opening(luminaire: &Luminaire) -> String {
     let opening = luminaire.opening;
     if opening.is_circle() {
@@ -145,7 +148,8 @@ fn opening(luminaire: &Luminaire) -> String {
     )
 }
 
-/// Returns the symmetry of the distribution in words, found from the intensities and not from the file's statement.
+/// Returns the symmetry of the intensity distribution as text, determined from the intensities, not from the file's
+/// statement.
 fn symmetry(luminaire: &Luminaire) -> &'static str {
     if luminaire.photometry != Photometry::C {
         return "not examined";

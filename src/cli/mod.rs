@@ -1,4 +1,4 @@
-//! Command line of the program: arguments in, files and tables out, no display needed.
+//! Command line of the program: subcommands that read and write files and tables, without a display.
 
 /// Prints a message on standard error, with the arguments of `eprintln!`.
 macro_rules! report {
@@ -61,7 +61,7 @@ use std::path::Path;
 /// Runs a subcommand.
 ///
 /// # Errors
-/// Returns an error of one line: the file, the place in it, what is wrong, and what was expected.
+/// Returns an error of one line: the file, the position in it, what is wrong, and what was expected.
 pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     // The catalogue is an input of the results, wherever it is opened.
     if let Some(path) = catalogue.map(Path::to_owned).or_else(|| default_path().ok()) {
@@ -89,13 +89,13 @@ pub fn run(command: &Command, catalogue: Option<&Path>) -> anyhow::Result<()> {
     }
 }
 
-/// Returns whether an error is a verdict about data that were read, and not an operation that failed.
+/// Whether an error is a negative result about data that were read (exit status 1), not a failed operation.
 fn is_judgement(error: &anyhow::Error) -> bool {
     error.is::<validate::NotFit>() || error.is::<packages::Differ>() || error.is::<check::Damaged>()
 }
 
 /// Returns the exit status of the program: 1 if data were read but are not fit for use, differ or are damaged; 2 if an
-/// operation failed; 101 after an internal error, as for any program in Rust.
+/// operation failed; 101 after an internal error (panic).
 pub fn status(error: &anyhow::Error) -> u8 {
     if error.is::<Stopped>() {
         101

@@ -10,33 +10,33 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Whether standard output is the file that the command writes.
 static IS_FILE: AtomicBool = AtomicBool::new(false);
 
-/// Reserves standard output for the file that the command writes: all else that is printed goes to standard error.
+/// Reserves standard output for the file that the command writes; everything else is then printed on standard error.
 pub(super) fn give_to_file() {
     IS_FILE.store(true, Ordering::Relaxed);
 }
 
 /// Description of one file, as text or as JSON values (one per state of a dataset file).
 pub(super) enum Content {
-    /// Text for reading.
+    /// Description as text.
     Text(String),
-    /// JSON values.
+    /// Description as JSON values.
     Json(Vec<Value>),
 }
 
 impl Content {
-    /// Calls one of the two functions: `json` if `as_json`, else `text`.
+    /// Creates the description: as JSON from `json` if `as_json`, else as text from `text`.
     pub(super) fn of(as_json: bool, json: impl FnOnce() -> Value, text: impl FnOnce() -> String) -> Self {
         if as_json { Self::Json(vec![json()]) } else { Self::Text(text()) }
     }
 }
 
-/// Prints data on standard output: CSV, JSON, templates. Control characters are made visible; a closed pipe is the
-/// reader's choice, not an error.
+/// Prints data (CSV, JSON, templates) on standard output, with control characters made visible; a closed pipe is not an
+/// error.
 pub(super) fn print(text: &str) -> anyhow::Result<()> {
     print_bytes(visible(text).as_bytes())
 }
 
-/// Prints bytes without terminal commands on standard output.
+/// Prints bytes on standard output, without making control characters visible.
 pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     if IS_FILE.load(Ordering::Relaxed) {
         // If standard error cannot be written, the failure cannot be reported, as in `to_stderr`.
@@ -49,23 +49,23 @@ pub(super) fn print_bytes(bytes: &[u8]) -> anyhow::Result<()> {
     }
 }
 
-/// Prints a text for reading on standard output, like [`print()`], with long numbers shortened.
+/// Prints a text for people on standard output, like [`print()`] but with long numbers shortened.
 pub(super) fn print_text(text: &str) -> anyhow::Result<()> {
     print(&short_numbers(text))
 }
 
-/// Prints a message on standard error, as one line, whatever the file contains that it quotes.
+/// Prints a message on standard error as one line, without control characters of quoted texts.
 pub(super) fn to_stderr(text: std::fmt::Arguments<'_>) {
     // If standard error cannot be written, the failure cannot be reported.
     drop(writeln!(std::io::stderr().lock(), "{}", message(&text.to_string())));
 }
 
-/// Prints an error on standard error, as one line, whatever its causes contain.
+/// Prints an error with its causes on standard error as one line, without control characters of quoted texts.
 pub fn report_error(error: &anyhow::Error) {
     to_stderr(format_args!("cfs: {}", sentence(error)));
 }
 
-/// Returns an error as one sentence with its causes, none of them twice.
+/// Returns an error with its causes as one sentence, without repetitions.
 pub(super) fn sentence(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {

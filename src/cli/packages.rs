@@ -48,7 +48,7 @@ pub struct MergeArgs {
     /// Package to write (.cfsp)
     #[arg(long)]
     pub out: PathBuf,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }

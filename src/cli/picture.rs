@@ -1,4 +1,4 @@
-//! `cfs picture`: a tile of the window as a picture, without the window.
+//! `cfs picture`: picture of a tile of the window, drawn without the window.
 
 use super::language::ReportLanguage;
 use super::progress::TerminalProgress;
@@ -42,15 +42,15 @@ pub struct PictureArgs {
     /// File to write: .svg or .png
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Format of a file without a name.
+    /// Option for the format of output to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }
 
-/// Reads a scene file and computes the results that `wanted` selects, as the subject of a picture or report.
+/// Reads a scene file and computes the results that `wanted` selects, for a picture or report.
 pub(super) fn subject(path: &Path, wanted: Wanted, library: &Library) -> anyhow::Result<Subject> {
     let file = read_scene_file(path)?;
     let base = files::folder(path);

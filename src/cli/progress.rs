@@ -4,14 +4,14 @@ use crate::compute::estimate::Progress;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::time::Duration;
 
-/// Duration of work below which no progress is shown.
+/// Duration of a computation below which no progress is shown.
 const DELAY: Duration = Duration::from_secs(1);
 
-/// Progress bar on standard error, with the name of the stage.
+/// Progress bar on standard error, with the name of the current stage.
 pub(super) struct TerminalProgress(ProgressBar);
 
 impl TerminalProgress {
-    /// Creates a hidden bar that is shown after a second, unless the work has finished.
+    /// Creates a progress bar that is hidden for the first second.
     pub(super) fn new() -> Self {
         let bar = ProgressBar::with_draw_target(Some(1), ProgressDrawTarget::hidden());
         if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} [{bar:30}] {pos}/{len}") {

@@ -65,7 +65,7 @@ pub struct RankArgs {
     /// Write the table to a CSV file, too
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print the ranking as JSON, with the contributions to every difference
@@ -109,7 +109,8 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
     }
 }
 
-/// Returns the lists to rank of the scenes. `products`: search words that replace the scenes' own selection.
+/// Returns the lists of products to rank, one or more per scene. `products`: search words that replace the selection of
+/// the scenes.
 pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Library) -> anyhow::Result<Vec<Group>> {
     let mut all = Vec::new();
     for (place, path) in scenes.iter().enumerate() {
@@ -129,7 +130,7 @@ pub(super) fn asked(scenes: &[PathBuf], products: Option<&str>, library: &Librar
     Ok(all)
 }
 
-/// Returns the figures of all lists, each once, in order of first appearance.
+/// Returns the keys of the figures of all lists, each once, in the order of first appearance.
 fn figures_of(groups: &[Group]) -> Vec<String> {
     let mut list: Vec<String> = Vec::new();
     for figure in groups.iter().flat_map(|group| &group.figures) {
@@ -140,10 +141,10 @@ fn figures_of(groups: &[Group]) -> Vec<String> {
     list
 }
 
-/// Returns whether the file of a part exists, complete and of this ranking.
+/// Whether the file of a part of the ranking exists already and is complete.
 ///
 /// # Errors
-/// Returns an error if the file holds a part of another ranking, which is replaced only with `--force`.
+/// Returns an error if the file contains a part of another ranking, which is replaced only with `--force`.
 fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<bool> {
     match shard_of(out) {
         Some(there) if there == *shape => Ok(true),
@@ -158,7 +159,7 @@ fn there_already(args: &RankArgs, shape: &Shape, out: &Path) -> anyhow::Result<b
     }
 }
 
-/// Writes the complete lists to the CSV file, and prints them as a table or as JSON.
+/// Writes the ranked lists to the CSV file, and prints them as a table or as JSON.
 fn report_lists(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::Result<()> {
     if let Some(out) = &args.out {
         args.tables.put(Some(out), FileKind::Csv, &csv_text(&ranked_table(lists, figures)))?;
@@ -166,7 +167,7 @@ fn report_lists(args: &RankArgs, lists: &[List], figures: &[String]) -> anyhow::
     if args.json { print(&format!("{:#}\n", to_json(lists))) } else { print_text(&table(lists)) }
 }
 
-/// Returns the ranked lists as a table for reading.
+/// Returns the ranked lists as a table in text.
 fn table(lists: &[List]) -> String {
     let mut text = String::new();
     for list in lists {

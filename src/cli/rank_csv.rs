@@ -1,8 +1,9 @@
-//! CSV tables of parts of a ranking, with all that is needed to merge them.
+//! CSV tables of the parts of a ranking (`--shard`), with all data that are needed to merge them.
 //!
-//! A part has the columns of a complete table, but without ranks and reasons, which depend on the other parts too. Then
-//! follow `list` (place among all lists), `objectives`, a column `_parts` for every figure, `key` (a hash of all input
-//! of the row), and a last column without values, whose name states number of the part, ranking and count of rows.
+//! A part has the columns of a complete table, but without ranks and reasons, which depend on the other parts too. They
+//! are followed by the columns `list` (position among all lists), `objectives`, one column `_parts` per figure, `key`
+//! (a hash of all input of the row), and a last column without values, whose name states the number of the part, the
+//! ranking and the number of rows.
 
 use super::output::number;
 use crate::compute::rank::{Better, Objective, utility};
@@ -11,24 +12,24 @@ use crate::formats::encoding::decode;
 use crate::study::rank::{BETWEEN, List, Parts, Shard, begin, csv_text, exact, excluded, header};
 use std::path::Path;
 
-/// Identity of a part of a ranking.
+/// Identity of a part of a ranking: its number, the ranking, and its number of rows.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Shape {
-    /// Number of the part, and count of all parts: n/N.
+    /// Number n of the part and number N of all parts, n/N.
     pub shard: Shard,
-    /// Key of the ranking.
+    /// Key of the ranking, a hash of its input.
     pub run: String,
     /// Number of rows of the part.
     pub rows: usize,
 }
 
 impl Shape {
-    /// Returns the name of the last column.
+    /// Returns the name of the last column, which states the identity of the part.
     fn name(&self) -> String {
         format!("shard {}/{} of {} with {} rows", self.shard.number, self.shard.count, self.run, self.rows)
     }
 
-    /// Parses the name of the last column; `None` if it names no part.
+    /// Parses the identity of a part from the name of the last column; `None` for other names.
     pub(super) fn read(name: &str) -> Option<Self> {
         let words: Vec<&str> = name.split(' ').collect();
         let ["shard", shard, "of", run, "with", rows, "rows"] = words.as_slice() else { return None };
@@ -36,7 +37,8 @@ impl Shape {
     }
 }
 
-/// Returns the part that a file holds completely; `None` for other or missing files and for streams.
+/// Returns the identity of the part of a ranking that a file contains completely; `None` for other or missing files and
+/// for streams.
 pub(super) fn shard_of(path: &Path) -> Option<Shape> {
     let bytes = if path.is_file() { std::fs::read(path).ok()? } else { return None };
     let text = decode(&bytes).ok()?;
@@ -47,7 +49,7 @@ pub(super) fn shard_of(path: &Path) -> Option<Shape> {
     (rows == shape.rows).then_some(shape)
 }
 
-/// Returns a part of a ranking as a CSV table.
+/// Returns the CSV table of a part of a ranking; `figures`: keys of the figures of all lists.
 pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> String {
     let mut head = header(figures);
     head.extend(["list".to_owned(), "objectives".to_owned()]);
@@ -79,7 +81,7 @@ pub(super) fn shard_csv(lists: &[List], figures: &[String], shape: &Shape) -> St
     csv_text(&table)
 }
 
-/// Returns the objectives of a list as text: `figure less|more worst best weight` for each, one after another.
+/// Returns the objectives of a list as text: `figure less|more worst best weight` for each, separated by blanks.
 fn objectives_text(list: &List) -> String {
     let one = |(figure, one): (&String, &Objective)| {
         let better = if one.better == Better::Less { "less" } else { "more" };
@@ -88,7 +90,7 @@ fn objectives_text(list: &List) -> String {
     list.figures.iter().zip(&list.objectives).map(one).collect::<Vec<_>>().join(BETWEEN)
 }
 
-/// Parses the objectives that [`shard_csv`] wrote: figures, and their objectives.
+/// Parses the objectives of a list that [`shard_csv`] wrote. Returns the keys of the figures, and the objectives.
 pub(super) fn objectives_of(text: &str) -> Option<(Vec<String>, Vec<Objective>)> {
     let one = |text: &str| {
         let words: Vec<&str> = text.split(' ').collect();
@@ -104,7 +106,7 @@ pub(super) fn objectives_of(text: &str) -> Option<(Vec<String>, Vec<Objective>)>
     Some(text.split(BETWEEN).map(one).collect::<Option<Vec<_>>>()?.into_iter().unzip())
 }
 
-/// Returns the parts of a figure as text: the zones, then the values in their order.
+/// Returns the parts that a figure is the sum of as text: the number of zones, then the values in their order.
 fn parts_text(parts: &Parts) -> String {
     if parts.values.is_empty() {
         return String::new();
@@ -113,7 +115,7 @@ fn parts_text(parts: &Parts) -> String {
     format!("{}|{}", parts.zones.join(";"), values.join(" "))
 }
 
-/// Parses the parts of a figure that [`shard_csv`] wrote.
+/// Parses the parts of a figure that [`shard_csv`] wrote; `None` if the text is not valid.
 pub(super) fn parts_of(text: &str) -> Option<Parts> {
     if text.is_empty() {
         return Some(Parts::default());

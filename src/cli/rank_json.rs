@@ -4,7 +4,7 @@ use crate::compute::rank::{Better, Objective, Why};
 use crate::study::rank::{Found, List, why};
 use serde_json::{Map, Value, json};
 
-/// Returns all lists as JSON, in their order.
+/// Returns all ranked lists as JSON, in their order.
 pub(super) fn to_json(lists: &[List]) -> Value {
     json!({ "lists": lists.iter().map(list).collect::<Vec<_>>() })
 }

@@ -1,4 +1,4 @@
-//! Merging of the parts of a ranking: a union by keys, in any order.
+//! Merging of the parts of a ranking, in any order, by the keys of their rows.
 
 use super::rank_csv::{Shape, objectives_of, parts_of};
 use crate::compute::estimate::Estimate;
@@ -18,7 +18,7 @@ struct Piece {
     rows: Vec<StringRecord>,
 }
 
-/// Merges the files of all parts. Returns the lists, and the figures of all lists.
+/// Merges the files of all parts of a ranking. Returns the lists, and the keys of the figures of all lists.
 ///
 /// # Errors
 /// Returns an error if a file is not a part or belongs to another ranking, if a key has two values, or if a part is

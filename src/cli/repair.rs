@@ -52,10 +52,10 @@ pub struct RepairArgs {
     /// Dataset file to write, .xml (BSDF XML) or .btdf.txt
     #[arg(long)]
     pub out: PathBuf,
-    /// Format of a file without a name.
+    /// Option for the format of output to a stream, whose name has no extension.
     #[command(flatten)]
     pub stream: StreamFormat,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }
@@ -64,7 +64,7 @@ pub struct RepairArgs {
 ///
 /// # Errors
 /// Returns an error if the input cannot be read, a word does not name a repair, the data do not allow a repair, or the
-/// output format cannot hold them. No output is left behind then.
+/// output format cannot express them. No output file is written then.
 pub fn run(args: &RepairArgs) -> anyhow::Result<()> {
     let name = args.file.display();
     let out_name = args.out.to_string_lossy();
@@ -124,8 +124,8 @@ fn asked(found: &[Diagnosis], words: &[String]) -> anyhow::Result<Vec<Repair>> {
     Ok(list)
 }
 
-/// Returns the proposed repairs that are not certain, on which somebody who knows the product has to decide, without
-/// those that are made.
+/// Returns a text that lists the proposed repairs that are not certain, on which somebody who knows the product has to
+/// decide, without those in `made`.
 fn questions(found: &[Diagnosis], made: &[Repair]) -> String {
     let mut words: Vec<String> = Vec::new();
     for repair in found.iter().filter(|one| !one.sure).filter_map(|one| one.repair) {

@@ -67,7 +67,7 @@ pub struct ReportArgs {
     /// PDF file to write
     #[arg(long, value_name = "FILE.pdf", required_unless_present = "template")]
     pub out: Option<PathBuf>,
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
 }
@@ -114,7 +114,7 @@ pub fn run(args: &ReportArgs, library: &Library) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Computes the comparison of the candidates that a scene lists; `None` if it lists none.
+/// Computes the comparison of the candidates that a scene lists under `[[compare]]`; `None` if it lists none.
 fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result<Option<Comparison>> {
     let scene = read_scene_file(path)?;
     let count = scene.compare.len();
@@ -131,7 +131,7 @@ fn compared(path: &Path, args: &ReportArgs, library: &Library) -> anyhow::Result
     })
 }
 
-/// Computes the results of a product in the example scene that the window opens at its first start.
+/// Computes the results of a product in the example scene, the one that the window opens at its first start.
 fn of_product(key: &str, state: Option<&str>, library: &Library) -> anyhow::Result<Subject> {
     let product = library.product(key).with_context(|| key.to_owned())?;
     let own = product.states.get(product.representative().1).map(|state| state.key.clone());

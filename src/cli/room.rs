@@ -39,7 +39,7 @@ pub struct RoomArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print the results as JSON, with the computation plan: stages, reasons and times
@@ -73,7 +73,7 @@ pub fn run(args: &RoomArgs, library: &dyn SystemLibrary) -> anyhow::Result<()> {
     if args.json { print_json(&scene, &result) } else { Ok(()) }
 }
 
-/// Uncertainty due to the data, relative to the light at the sensors, above which a note is printed.
+/// Uncertainty due to the data, relative to the illuminance at the sensor points, above which a note is printed.
 const UNPLACED: f64 = 0.1;
 
 /// Prints notes on the result on standard error: sky, weather, obstructions, data and error target.
@@ -155,8 +155,8 @@ fn sensor_json(row: &SensorResult) -> serde_json::Value {
     })
 }
 
-/// Prints the result as one JSON object. The sensors come last and are written one after another: a million of them as
-/// one value would take gigabytes.
+/// Prints the result as one JSON object. The sensor points come last and are written one after another, since a million
+/// of them as one value would need gigabytes of memory.
 fn print_json(scene: &Scene, result: &RoomResult) -> anyhow::Result<()> {
     let head = format!("{:#}", to_json(scene, result));
     let head = head.strip_suffix("\n}").unwrap_or(&head);
@@ -174,5 +174,5 @@ fn print_json(scene: &Scene, result: &RoomResult) -> anyhow::Result<()> {
     print(&text)
 }
 
-/// Size of the text that is collected before it is printed. \[bytes\]
+/// Size of the JSON text that is collected before it is printed. \[bytes\]
 const PRINTED_AT_ONCE: usize = 1 << 20;

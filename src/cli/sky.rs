@@ -39,7 +39,7 @@ pub struct SkyArgs {
     /// Write the table to a CSV file instead of standard output
     #[arg(long, value_name = "FILE.csv")]
     pub out: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print patches and illuminances as JSON
@@ -47,7 +47,7 @@ pub struct SkyArgs {
     pub json: bool,
 }
 
-/// Row of the table, one sky patch; angles in °, solid angle in sr, luminances in cd/m².
+/// Row of the table: one sky patch, with angles in °, solid angle in sr, luminances in cd/m².
 struct Row {
     altitude_deg: f64,
     azimuth_deg: f64,

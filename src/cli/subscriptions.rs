@@ -1,4 +1,5 @@
-//! `cfs catalogue subscribe`, `unsubscribe` and `subscriptions`: folders of packages as further catalogues.
+//! `cfs catalogue subscribe`, `unsubscribe` and `subscriptions`: folders of packages whose products are listed with
+//! those of the catalogue.
 
 use super::output::{print, print_text};
 use crate::catalogue::Catalogue;
@@ -45,7 +46,7 @@ pub struct SubscriptionsArgs {
     pub json: bool,
 }
 
-/// Reads all subscribed folders again, and prints changes and problems on standard error.
+/// Reads all subscribed folders again, and prints changes of products and problems on standard error.
 fn renewed(catalogue: &mut Catalogue) -> anyhow::Result<()> {
     let report = sync(catalogue, &Silent)?;
     for problem in &report.problems {
@@ -73,7 +74,7 @@ pub(super) fn unsubscribe(catalogue: &mut Catalogue, args: &UnsubscribeArgs) -> 
     Ok(())
 }
 
-/// Updates the subscribed folders and lists them.
+/// Updates the products of the subscribed folders and prints the list of folders.
 pub(super) fn list(catalogue: &mut Catalogue, args: &SubscriptionsArgs) -> anyhow::Result<()> {
     renewed(catalogue)?;
     let list = catalogue.subscriptions()?;

@@ -1,4 +1,4 @@
-//! `cfs info` of system descriptions: family, states, structure, layers and the source of the solar properties.
+//! `cfs info` for system descriptions: family, states, structure, layers and the source of the solar properties.
 //! Transmittances need a computation, see `cfs goniophotometer`.
 
 use super::output::Content;
@@ -17,7 +17,8 @@ use std::path::Path;
 /// Describes a system description file.
 ///
 /// # Errors
-/// Returns an error if the file or one of its layers cannot be read: one line with the file's name and the place in it.
+/// Returns an error if the file or one of its layers cannot be read: one line with the file's name and the position in
+/// it.
 pub(super) fn describe(path: &Path, as_json: bool, library: &Library) -> anyhow::Result<Content> {
     let named = |error| anyhow!("{}: {error}", path.display());
     let described = Described::read(path)?;

@@ -1,4 +1,4 @@
-//! `cfs catalogue validate`: data check of products and files, for the scripts of manufacturers.
+//! `cfs catalogue validate`: data check of products and dataset files, e.g. for scripts of manufacturers.
 
 use super::dataset_file;
 use super::output::{print, print_text};
@@ -100,7 +100,7 @@ pub struct NotFit {
     of: usize,
 }
 
-/// Returns a finding about a product as JSON.
+/// Returns a finding about a product of the catalogue as JSON.
 pub(super) fn finding_json(finding: &ProductFinding) -> Value {
     json!({
         "state": finding.state, "severity": finding.severity.word(), "code": finding.code, "message": finding.message,

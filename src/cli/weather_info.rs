@@ -1,4 +1,4 @@
-//! Weather files on the command line: `cfs info` of them, and the weather hour of a scene's sky.
+//! Weather on the command line: `cfs info` for weather files, and the weather hour of a scene's sky.
 
 use super::output::Content;
 use crate::compute::weather::{LightSource, Summary, Weather};
@@ -14,7 +14,7 @@ use std::path::Path;
 /// Describes a weather file or a built-in year; `None` for other names.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read: one line with the file's name and the place in it.
+/// Returns an error if the file cannot be read: one line with the file's name and the position in it.
 pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Content>> {
     let name = files::name_with_extension(path)?;
     if !name.starts_with(BUILTIN) && !is_weather_file(&name) {
@@ -25,7 +25,7 @@ pub(super) fn describe(path: &Path, as_json: bool) -> anyhow::Result<Option<Cont
     Ok(Some(Content::of(as_json, || to_json(&weather, &summary), || to_text(&weather, &summary))))
 }
 
-/// Returns the first and last interval of a year as text.
+/// Returns the first and the last interval of a weather file as text.
 fn period(weather: &Weather) -> [String; 2] {
     let words = |record: Option<&crate::compute::weather::Record>| {
         record.map_or(String::new(), |one| one.label(weather.interval))
@@ -127,12 +127,12 @@ fn to_text(weather: &Weather, summary: &Summary) -> String {
     text
 }
 
-/// Formats a latitude or longitude, with the side instead of a sign. \[°\]
+/// Formats a latitude or longitude \[°\] with a letter or word for the side (`positive`, `negative`) instead of a sign.
 fn sided(degrees: f64, positive: &str, negative: &str) -> String {
     format!("{}° {}", degrees.abs(), if degrees < 0.0 { negative } else { positive })
 }
 
-/// Formats years: up to four one by one, more as a count and a range.
+/// Formats a list of calendar years: up to four one by one, more as a number and a range.
 fn years(years: &[i16]) -> String {
     match years {
         [first, .., last] if years.len() > 4 => format!("{} of {first}–{last}", years.len()),
@@ -140,7 +140,8 @@ fn years(years: &[i16]) -> String {
     }
 }
 
-/// Returns in words how well global = diffuse + direct · sin h holds, and the clock offset with the best fit.
+/// Returns a text that states how well global = diffuse + direct · sin h holds in a weather file, and the clock offset
+/// with which it holds best.
 fn closure(weather: &Weather, summary: &Summary) -> String {
     let Some(one) = summary.closure else { return "not testable".to_owned() };
     if weather.tested.is_some() {
@@ -158,7 +159,7 @@ fn closure(weather: &Weather, summary: &Summary) -> String {
     format!("{:.1} W/m²; {:.1} W/m² with all intervals moved by {:+} min", one.rms, one.best_rms, one.best_offset)
 }
 
-/// Prints the weather hour of the sky and its warnings on standard error.
+/// Prints the weather hour of a scene's sky and its warnings on standard error; nothing without one.
 pub fn weather_notes(hour: Option<&HourOfWeather>) {
     let Some(hour) = hour else { return };
     report!("note: {}", hour.note());
@@ -167,7 +168,7 @@ pub fn weather_notes(hour: Option<&HourOfWeather>) {
     }
 }
 
-/// Returns the weather hour of a sky as a JSON object.
+/// Returns the weather hour of a scene's sky as a JSON object.
 pub fn hour_json(one: &HourOfWeather) -> Value {
     let hour = &one.hour;
     json!({

@@ -1,5 +1,5 @@
 //! Output files of commands. Input files are never overwritten, files of another kind only with `--force`; the name `-`
-//! stands for standard output. Each file written is reported with its full path.
+//! means standard output. Each file written is reported with its full path.
 
 use super::output;
 use crate::drawing::{Drawing, missing_characters};
@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-/// Maximum number of files of one command that are reported one by one. Chosen: no effect on results.
+/// Maximum number of written files of one command that are reported one by one. Chosen: no effect on results.
 const MAX_NAMED: usize = 4;
 
 /// Options for overwriting existing files.
@@ -36,8 +36,8 @@ impl Over {
         Replace::Kind { kind, force: self.force }
     }
 
-    /// Checks before the work whether a file may be written, and reserves standard output for it if its name is `-`.
-    /// `from`: files that the command is about to read.
+    /// Checks before a computation whether the output file may be written, and reserves standard output for it if its
+    /// name is `-`. `from`: files that the command is about to read.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
@@ -60,21 +60,23 @@ impl Over {
         self.write_all(&[(path, kind, bytes)])
     }
 
-    /// Writes files, all of them or none, and reports them on standard error.
+    /// Writes files (all of them, or none after an error) and reports them on standard error.
     pub(super) fn write_all(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         self.write_silently(list)?;
         report_written(list.iter().map(|(path, ..)| *path));
         Ok(())
     }
 
-    /// Writes files, all of them or none, without a report; [`report_written`] reports them with those that follow.
+    /// Writes files (all of them, or none after an error) without a report, for which the caller uses
+    /// [`report_written`].
     pub(super) fn write_silently(self, list: &[(&Path, FileKind, &[u8])]) -> Result<(), StudyError> {
         let output = |&(path, kind, bytes): &(_, _, _)| Output { path, bytes, replace: self.replace(kind) };
         files::write_all(&list.iter().map(output).collect::<Vec<_>>())
     }
 }
 
-/// Reports the written files on standard error with their full paths, only the first of many. Streams are left out.
+/// Reports written files on standard error with their full paths, only the first ones of many; without standard output
+/// and pipes.
 pub(super) fn report_written<'a>(paths: impl Iterator<Item = &'a Path>) {
     let list: Vec<PathBuf> = paths.filter(|path| !files::is_stream(path)).map(files::absolute).collect();
     match list.as_slice() {
@@ -88,18 +90,18 @@ pub(super) fn report_written<'a>(paths: impl Iterator<Item = &'a Path>) {
 /// Options for writing CSV tables.
 #[derive(Debug, Clone, Copy, Default, clap::Args)]
 pub struct Tables {
-    /// Overwriting of existing files.
+    /// Options for overwriting existing files.
     #[command(flatten)]
     pub over: Over,
-    /// Write the CSV table with decimal commas, and semicolons between columns, as spreadsheets in German and other languages
-    /// expect it; such a table is read wherever the plain one is
+    /// Write the CSV table with decimal commas, and semicolons between columns, the notation of spreadsheets in German
+    /// and other languages; such a table is read wherever a plain one is
     #[arg(long)]
     pub decimal_comma: bool,
 }
 
 impl Tables {
-    /// Checks before the work like [`Over::check`], and also whether `--decimal-comma` applies. `is_printed`: whether
-    /// the table goes to standard output if there is no file.
+    /// Checks the output file before a computation like [`Over::check`], and also that `--decimal-comma` applies to it.
+    /// `is_printed`: whether the table goes to standard output if there is no file.
     pub(super) fn check<'a>(
         self,
         from: impl IntoIterator<Item = &'a Path>,
@@ -116,7 +118,7 @@ impl Tables {
         self.over.check(from, path, kind)
     }
 
-    /// Returns a text as bytes, with decimal commas if it is a CSV table and they are requested.
+    /// Returns the text of a file as bytes, with decimal commas if it is a CSV table and they are requested.
     fn formed(self, kind: FileKind, text: &str) -> Cow<'_, [u8]> {
         if self.decimal_comma && kind == FileKind::Csv {
             Cow::Owned(with_decimal_commas(text))
@@ -133,7 +135,7 @@ impl Tables {
         }
     }
 
-    /// Returns a table as the bytes of its file.
+    /// Returns a CSV table as the bytes of its file, with decimal commas if they are requested.
     pub(super) fn bytes(self, table: &str) -> Vec<u8> {
         self.formed(FileKind::Csv, table).into_owned()
     }
@@ -148,7 +150,8 @@ pub struct StreamFormat {
 }
 
 impl StreamFormat {
-    /// Returns the name whose extension states the format of a file.
+    /// Returns the name by whose extension the format of the file is recognised: `path`, or for a stream one with the
+    /// extension of `--format`.
     pub(super) fn name(&self, path: &Path) -> anyhow::Result<PathBuf> {
         match (&self.format, files::is_stream(path)) {
             (Some(extension), true) => Ok(PathBuf::from(format!("stream.{}", extension.trim_start_matches('.')))),

@@ -56,7 +56,7 @@ pub struct YearArgs {
     /// Write the table (with --scene-at: the scene) to a file instead of standard output
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Form of the table, and overwriting of existing files.
+    /// Options for decimal commas in the CSV table and for overwriting existing files.
     #[command(flatten)]
     pub tables: Tables,
     /// Print the annual metrics with their uncertainties as JSON
@@ -139,12 +139,13 @@ pub fn run(args: &YearArgs, library: &Library) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Opens the file of saved hours beside the table: those of an interrupted run, to which this run adds its own.
+/// Opens the file of finished hours beside the table, which contains those of an interrupted run and to which this run
+/// adds further ones.
 fn kept(args: &YearArgs, table: &Path, file: &SceneFile, base: &Path, library: &Library) -> Result<Kept, StudyError> {
     Kept::beside(table, of_results(file, base, library)?, STORE_DELAY, args.tables.over.force)
 }
 
-/// Writes a scene whose paths are valid from its new place.
+/// Writes a scene file, with its relative paths changed so that they are valid from the folder of `out`.
 fn write_scene(args: &YearArgs, scene: &SceneFile, base: &Path, out: &Path) -> anyhow::Result<()> {
     // The place of a scene that is written to a stream is unknown.
     let beside = !files::is_stream(out) && files::absolute(files::folder(out)) == files::absolute(base);
@@ -158,7 +159,7 @@ fn moment(text: &str) -> anyhow::Result<DateTime> {
     text.parse().map_err(|_| anyhow!("--scene-at {text}: no time; expected YYYY-MM-DDTHH:MM"))
 }
 
-/// Parses a date. Returns the year, if it is given, and month and day.
+/// Parses the date of an option, `MM-DD` or `YYYY-MM-DD`. Returns the year, if it is given, and month and day.
 fn day(option: &str, text: &str) -> anyhow::Result<(Option<i16>, (i8, i8))> {
     if let Ok(date) = text.parse::<Date>() {
         return Ok((Some(date.year()), (date.month(), date.day())));
@@ -169,7 +170,7 @@ fn day(option: &str, text: &str) -> anyhow::Result<(Option<i16>, (i8, i8))> {
     Ok((None, (date.month(), date.day())))
 }
 
-/// Test whether a time step is requested.
+/// Function that returns whether a time step is requested by the options.
 type Wanted = Box<dyn Fn(&Step) -> bool>;
 
 fn wanted(args: &YearArgs) -> anyhow::Result<Wanted> {
@@ -190,7 +191,7 @@ fn wanted(args: &YearArgs) -> anyhow::Result<Wanted> {
     Ok(Box::new(move |step| (from..=to).contains(&of(step))))
 }
 
-/// Returns the CSV table of the time steps.
+/// Returns the CSV table of an annual simulation, one row per time step.
 fn csv(year: &Year) -> String {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let mut text = String::from("time,sun_altitude_deg,sun_azimuth_deg,direct_normal_lx,diffuse_horizontal_lx");

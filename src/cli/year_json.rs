@@ -7,8 +7,9 @@ use crate::study::year::{
 };
 use serde_json::{Map, Value, json};
 
-/// Returns the result of a year as JSON: figures, their uncertainties due to those of the hours, weather, states,
-/// stages, and what was not computed.
+/// Returns the result of an annual simulation as JSON: annual figures, their uncertainties (from those of the hourly
+/// illuminances), weather, states, stages of the computation, and results that were not computed. `figures`: with the
+/// illuminances as computed, and with those reduced and increased by their uncertainty.
 pub(super) fn to_json(year: &Year, figures: &[Figures; 3], opening: &Opening) -> Value {
     let entries = metrics(year, figures);
     let mut own = nested(&entries, |entry| Some(plain(&entry.values[0])));
@@ -50,7 +51,7 @@ pub(super) fn to_json(year: &Year, figures: &[Figures; 3], opening: &Opening) ->
     })
 }
 
-/// Returns values of metrics under their keys, step by step.
+/// Returns `value` of all metrics as nested JSON objects, by the parts of their keys.
 fn nested(entries: &[Entry], value: impl Fn(&Entry) -> Option<Value>) -> Value {
     let mut all = json!({});
     for entry in entries {
@@ -71,7 +72,8 @@ fn plain(quantity: &Quantity) -> Value {
     }
 }
 
-/// Returns the uncertainty of a number, or of each number of a list; `None` for all else.
+/// Returns the uncertainty of a metric that is a number, or of each number of a list, as JSON; `None` for other
+/// metrics.
 fn error(entry: &Entry) -> Option<Value> {
     match &entry.values {
         [Quantity::Number(_), ..] => Some(json!(entry.estimate()?.error)),
@@ -84,7 +86,7 @@ fn error(entry: &Entry) -> Option<Value> {
     }
 }
 
-/// Returns the solar energy transmitted through each aperture, and its uncertainties.
+/// Returns the solar energy transmitted directly through each aperture \[kWh\], and its uncertainties, as JSON.
 fn apertures(year: &Year, figures: &[Figures; 3]) -> (Value, Value) {
     let all = year.solar.iter().flat_map(|solar| solar.apertures.iter().enumerate());
     let of = |(k, one): (usize, &ThroughAperture)| {
@@ -103,7 +105,7 @@ fn apertures(year: &Year, figures: &[Figures; 3]) -> (Value, Value) {
     (json!(own), json!(errors))
 }
 
-/// Returns the exposure to sunlight of EN 17037 as JSON.
+/// Returns the exposure to sunlight by EN 17037 as JSON.
 fn sunlight(opening: &Opening) -> Value {
     json!({
         "date": opening.day.to_string(),
@@ -116,7 +118,7 @@ fn sunlight(opening: &Opening) -> Value {
     })
 }
 
-/// Returns the view out of EN 17037 as JSON, as reached at three quarters of the sensor points.
+/// Returns the view out by EN 17037 as JSON: the criteria that are reached at three quarters of the sensor points.
 fn view(opening: &Opening) -> Value {
     let view = &opening.view;
     json!({
@@ -135,8 +137,8 @@ fn view(opening: &Opening) -> Value {
     })
 }
 
-/// Returns the shading operation of an aperture as JSON: hours with light per state in the requested steps, and state
-/// changes of the whole year.
+/// Returns the shading operation of an aperture as JSON: daylight hours per state in the requested steps, and state
+/// changes in the whole year.
 fn control(year: &Year, m: usize, aperture: usize) -> Value {
     let device = &year.moving[m].device;
     let hours: Map<String, Value> = device

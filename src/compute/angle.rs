@@ -1,8 +1,9 @@
-//! Angles: radians inside, degrees at the border only; compass bearings separate from mathematical azimuths.
+//! Angles as types: radians in all computations, degrees in input and output only; compass bearings are kept separate
+//! from mathematical azimuths.
 
 use std::f64::consts::PI;
 
-/// Plane angle. Holds radians; built from and read as either unit by name.
+/// Plane angle, created from and read in radians or degrees. Stored in radians.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Angle(f64);
 
@@ -28,13 +29,13 @@ impl Angle {
     }
 }
 
-/// Compass bearing: clockwise from north, seen from above. A separate type, because a bearing taken for a mathematical
-/// azimuth still gives a plausible picture.
+/// Compass bearing: angle clockwise from north, seen from above. A type of its own, since a bearing that is mistaken
+/// for a mathematical azimuth (counter-clockwise from east) still gives plausible results.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Bearing(Angle);
 
 impl Bearing {
-    /// Creates a bearing from degrees clockwise from north (south = 180).
+    /// Creates a bearing from degrees clockwise from north (east = 90, south = 180).
     pub fn from_degrees(degrees: f64) -> Self {
         Self(Angle::from_degrees(degrees))
     }
@@ -44,18 +45,18 @@ impl Bearing {
         Self(Angle::from_radians(radians))
     }
 
-    /// Returns the bearing in degrees, 0 ≤ bearing < 360.
+    /// Returns the bearing in degrees clockwise from north, 0 ≤ bearing < 360.
     pub fn degrees(self) -> f64 {
         self.0.degrees().rem_euclid(360.0)
     }
 
-    /// Returns the bearing in radians, as given.
+    /// Returns the bearing in radians clockwise from north, not reduced to 0 … 2π.
     pub const fn radians(self) -> f64 {
         self.0.radians()
     }
 }
 
-/// Brings an azimuth into 0 ≤ φ < 2π. \[rad\]
+/// Returns an azimuth reduced by full turns to 0 ≤ φ < 2π. \[rad\]
 pub fn wrap_two_pi(phi: f64) -> f64 {
     let wrapped = phi.rem_euclid(2.0 * PI);
     // rem_euclid of a tiny negative number rounds up to 2π itself.

@@ -11,29 +11,31 @@
 //!
 //! * [`Incident`]: from the element **towards the source**. Light from outside: z_F > 0.
 //! * [`Emergent`]: in which the light **leaves**. Light into the room: z_F < 0.
-//! * **Through direction** of an emergent direction ω_a: ω′ = −ω_a, the incident direction from which a clear opening
-//!   would send light along ω_a. All transmitted data are stored by ω′, so a clear pane is a diagonal matrix and
-//!   reciprocity is a plain transpose: q_front(ω_e, ω′) = q_back(ω′, ω_e).
-//!   Light from inside is stored by the direction in which it travels (z_F > 0) on both sides.
-//!   Reflected light r is stored by (−r_x, −r_y, r_z), so that a mirror is a diagonal matrix as well.
+//! * **Direction of undeviated light** ω′ = −ω_a of an emergent direction ω_a: undeviated light that arrives from ω_e
+//!   leaves in −ω_e, so ω′ is the incident direction from which a clear pane would send light along ω_a. All
+//!   transmitted data are stored by ω′, so that a clear pane is a diagonal matrix and reciprocity is a plain transpose:
+//!   q_front(ω_e, ω′) = q_back(ω′, ω_e). Light from inside is stored by the direction in which it travels (z_F > 0) on
+//!   both sides. Reflected light r is stored by (−r_x, −r_y, r_z), so that a mirror is a diagonal matrix as well.
 //!
-//! A bearing β maps to the room by x = −sin(β − A) cos h, y = −cos(β − A) cos h with A the façade's bearing.
+//! A direction of bearing β and altitude h is x = −sin(β − A) cos h, y = −cos(β − A) cos h, z = sin h in the room's
+//! axes, with A the bearing of the façade's outward normal.
 
 use super::angle::{Bearing, wrap_two_pi};
 use glam::DVec3;
 use std::marker::PhantomData;
 
-/// Frame tag: x east, y north, z up.
+/// Frame tag of the world's axes: x east, y north, z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct World;
-/// Frame tag: the room's axes.
+/// Frame tag of the room's axes: x to the right seen from outside, y from the façade into the room, z up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Room;
-/// Frame tag: an aperture's own axes (x right seen from outside, y up, z outward).
+/// Frame tag of an aperture's axes (façade frame): x to the right seen from outside, y up, z outward normal; in a roof
+/// x and y are those of the room and z points up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facade;
 
-/// Unit vector in a stated frame.
+/// Direction as a unit vector in the axes of the frame `F` ([`World`], [`Room`] or [`Facade`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Dir<F> {
     vector: DVec3,
@@ -41,7 +43,8 @@ pub struct Dir<F> {
 }
 
 impl<F> Dir<F> {
-    /// Returns the direction of a vector; `None` when it has no length or is not finite.
+    /// Creates a direction from a vector of any length by scaling it to length 1; `None` if its length is 0 or not
+    /// finite.
     pub fn new(vector: DVec3) -> Option<Self> {
         vector.try_normalize().map(Self::from_unit)
     }
@@ -51,24 +54,27 @@ impl<F> Dir<F> {
         Self { vector, frame: PhantomData }
     }
 
-    /// Creates a direction from the polar angle θ about +z and the azimuth φ from +x towards +y. \[rad\]
+    /// Creates a direction from the polar angle θ from the +z axis and the azimuth φ about it, from +x towards +y.
+    /// \[rad\]
     pub fn from_theta_phi(theta: f64, phi: f64) -> Self {
         let (sin_theta, cos_theta) = theta.sin_cos();
         let (sin_phi, cos_phi) = phi.sin_cos();
         Self::from_unit(DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta))
     }
 
-    /// Returns the unit vector.
+    /// Returns the direction as a unit vector in the axes of its frame.
     pub const fn vector(self) -> DVec3 {
         self.vector
     }
 
-    /// Returns the polar angle from +z, 0 … π. \[rad\] Exact near the axis, where `acos` is not.
+    /// Returns the polar angle θ of the direction from the +z axis of its frame, 0 … π. \[rad\] Exact near the axis,
+    /// where `acos` is not.
     pub fn theta(self) -> f64 {
         self.vector.truncate().length().atan2(self.vector.z)
     }
 
-    /// Returns the azimuth from +x towards +y, 0 ≤ φ < 2π; 0 on the axis. \[rad\]
+    /// Returns the azimuth φ of the direction about the z axis of its frame, from +x towards +y, 0 ≤ φ < 2π; 0 on the z
+    /// axis. \[rad\]
     pub fn phi(self) -> f64 {
         wrap_two_pi(self.vector.y.atan2(self.vector.x))
     }
@@ -85,46 +91,49 @@ impl<F> Dir<F> {
 }
 
 impl Dir<World> {
-    /// Creates a direction from altitude above the horizon \[rad\] and compass bearing.
+    /// Creates a direction from its altitude above the horizon \[rad\] and its compass bearing (clockwise from north).
     pub fn from_altitude_bearing(altitude: f64, bearing: Bearing) -> Self {
         let (sin_bearing, cos_bearing) = bearing.radians().sin_cos();
         let cos_altitude = altitude.cos();
         Self::from_unit(DVec3::new(sin_bearing * cos_altitude, cos_bearing * cos_altitude, altitude.sin()))
     }
 
-    /// Returns the altitude above the horizon. \[rad\]
+    /// Returns the altitude of the direction above the horizon, −π/2 … π/2. \[rad\]
     pub fn altitude(self) -> f64 {
         self.vector.z.atan2(self.vector.truncate().length())
     }
 
-    /// Returns the compass bearing.
+    /// Returns the compass bearing of the direction's horizontal component, clockwise from north.
     pub fn bearing(self) -> Bearing {
         Bearing::from_radians(wrap_two_pi(self.vector.x.atan2(self.vector.y)))
     }
 }
 
-/// Incident direction: towards the source, in the aperture's frame.
+/// Incident direction: unit vector from the aperture towards the light source, in the façade frame (z outward normal).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Incident(pub Dir<Facade>);
 
-/// Emergent direction: in which light leaves, in the aperture's frame.
+/// Emergent direction: unit vector in which light leaves the aperture, in the façade frame (z outward normal, so that
+/// light into the room has z < 0).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Emergent(pub Dir<Facade>);
 
 impl Emergent {
-    /// Returns the emergent direction whose through direction is `twin`.
+    /// Returns the emergent direction −`twin` of light that arrives from the incident direction `twin` and passes
+    /// undeviated.
     pub fn from_through_name(twin: Dir<Facade>) -> Self {
         Self(twin.reversed())
     }
 
-    /// Returns the through direction ω′ = −ω_a: the incident direction from which a clear pane would send light in this
-    /// emergent direction.
+    /// Returns the direction of undeviated light ω′ = −ω_a: the incident direction from which a clear pane would send
+    /// light in this emergent direction ω_a.
     pub fn through_name(self) -> Dir<Facade> {
         self.0.reversed()
     }
 }
 
-/// Orientation of the room to the compass: rotations between world and room.
+/// Orientation of the room to the compass: rotation about the vertical between the world's axes (x east, y north) and
+/// the room's (x to the right seen from outside, y into the room).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orientation {
     sin: f64,
@@ -132,52 +141,54 @@ pub struct Orientation {
 }
 
 impl Orientation {
-    /// Creates the orientation from the bearing of the façade's outward normal.
+    /// Creates the orientation of a room from the bearing of its façade's outward normal.
     pub fn new(facade_normal: Bearing) -> Self {
         let (sin, cos) = facade_normal.radians().sin_cos();
         Self { sin, cos }
     }
 
-    /// Returns a direction of the world in the room: x_room = (−cos A, sin A), y_room = (−sin A, −cos A) in (east,
-    /// north).
+    /// Converts a direction from the world's axes to the room's. With A the bearing of the façade's outward normal, the
+    /// room's axes in (east, north) are x_room = (−cos A, sin A) and y_room = (−sin A, −cos A).
     pub fn room_from_world(self, d: Dir<World>) -> Dir<Room> {
         let v = d.vector();
         Dir::from_unit(DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z))
     }
 
-    /// Returns a direction of the room in the world.
+    /// Converts a direction from the room's axes to the world's (x east, y north, z up).
     pub fn world_from_room(self, d: Dir<Room>) -> Dir<World> {
         Dir::from_unit(self.to_world(d.vector()))
     }
 
-    /// Returns a vector or a point of the room in the world's axes, from the room's own origin.
+    /// Converts a vector, or a point relative to the room's origin, from the room's axes to the world's (x east, y
+    /// north, z up).
     pub fn to_world(self, v: DVec3) -> DVec3 {
         DVec3::new(-self.cos * v.x - self.sin * v.y, self.sin * v.x - self.cos * v.y, v.z)
     }
 
-    /// Returns a vector or a point of the world's axes in the room's.
+    /// Converts a vector, or a point relative to the room's origin, from the world's axes (x east, y north, z up) to
+    /// the room's.
     pub fn to_room(self, v: DVec3) -> DVec3 {
         DVec3::new(-self.cos * v.x + self.sin * v.y, -self.sin * v.x - self.cos * v.y, v.z)
     }
 
-    /// Returns cosine and sine of the angle by which the room is rotated in the world, counter-clockwise seen from
-    /// above.
+    /// Returns cosine and sine of the angle from east to the room's x axis, counter-clockwise seen from above.
     pub fn turn(self) -> [f64; 2] {
         [-self.cos, self.sin]
     }
 }
 
-/// Surface that an aperture lies in.
+/// Surface of the room that an aperture lies in; it fixes the aperture's axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Surface {
-    /// Façade wall y = 0.
+    /// Façade wall, the plane y = 0 of the room.
     Facade,
-    /// Ceiling z = height.
+    /// Flat roof: the ceiling, the plane z = room height.
     Roof,
 }
 
 impl Surface {
-    /// Returns the components of a room vector along the aperture's own axes (also for offsets, not only directions).
+    /// Converts a vector (direction or offset) from the room's axes to the façade frame of an aperture in this surface
+    /// (x to the right seen from outside, y up, z outward normal).
     pub fn facade_from_room(self, v: DVec3) -> DVec3 {
         match self {
             Self::Facade => DVec3::new(v.x, v.z, -v.y),
@@ -185,7 +196,8 @@ impl Surface {
         }
     }
 
-    /// Returns a vector of the aperture's axes in the room's axes; the inverse of [`Self::facade_from_room`].
+    /// Converts a vector (direction or offset) from the façade frame of an aperture in this surface to the room's axes;
+    /// the inverse of [`Self::facade_from_room`].
     pub fn room_from_facade(self, v: DVec3) -> DVec3 {
         match self {
             Self::Facade => DVec3::new(v.x, -v.z, v.y),
@@ -193,12 +205,12 @@ impl Surface {
         }
     }
 
-    /// Returns a direction of the room in the aperture's frame.
+    /// Converts a direction from the room's axes to the façade frame of an aperture in this surface.
     pub fn facade_dir(self, d: Dir<Room>) -> Dir<Facade> {
         Dir::from_unit(self.facade_from_room(d.vector()))
     }
 
-    /// Returns a direction of the aperture's frame in the room.
+    /// Converts a direction from the façade frame of an aperture in this surface to the room's axes.
     pub fn room_dir(self, d: Dir<Facade>) -> Dir<Room> {
         Dir::from_unit(self.room_from_facade(d.vector()))
     }

@@ -1,4 +1,5 @@
-//! Plots on paper: panels side by side under one legend, as shapes of a [`Drawing`].
+//! Plots on paper: panels side by side under one legend, as shapes of a [`Drawing`]. All lengths and positions are in
+//! drawing units, x to the right and y down from the upper left corner of the paper.
 
 use super::colours::Inks;
 pub use super::colours::SERIES;
@@ -8,23 +9,26 @@ use super::plot::{Axis, Form, Plot, Series};
 use super::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::texts::tiles as say;
 
-/// Space for the labels below a panel, with and without a name of the axis.
+/// Height of the strip below a panel for the labels at its ticks: with the name of the x axis under them, and without.
+/// \[drawing units\]
 const BELOW: [f64; 2] = [40.0, 22.0];
-/// Space above a panel for its title.
+/// Height of the strip above a panel for its title. \[drawing units\]
 const ABOVE: f64 = 30.0;
 
-/// Panel: a plot with its area on paper.
+/// Panel of a chart: a plot together with the rectangle of the paper into which its data are drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Panel<'a> {
-    /// Plot that is drawn.
+    /// Plot that the panel shows: axes, series and guide lines.
     pub plot: &'a Plot,
-    /// Plotting area.
+    /// Rectangle between the axes, without ticks, labels and title.
+    /// \[drawing units from the upper left corner of the paper\]
     pub area: Frame,
-    /// Inks of the panel.
+    /// Colours of everything that is drawn in the panel.
     pub inks: &'a Inks,
 }
 
-/// Draws plots of the same series side by side under one legend, on paper of a given size.
+/// Draws plots of the same series side by side under one legend, on paper of the given width and height.
+/// \[drawing units\]
 pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
     let inks = &Inks::LIGHT;
     let mut drawing = Drawing::new(across, down);
@@ -41,7 +45,8 @@ pub fn draw(plots: &[Plot], [across, down]: [f64; 2]) -> Drawing {
     drawing
 }
 
-/// Draws the names of series, in lines, and returns their height.
+/// Draws the legend of a chart, a sample of each curve with the name of its series, in as many lines as the frame's
+/// width needs. Returns the height of the legend. \[drawing units\]
 pub fn names(drawing: &mut Drawing, frame: Frame, series: &[Series], inks: &Inks) -> f64 {
     let name = |(k, series): (usize, &Series)| Name {
         sample: inks.curve(k, vec![[0.0, 0.0], [18.0, 0.0]], 2.5),
@@ -51,7 +56,8 @@ pub fn names(drawing: &mut Drawing, frame: Frame, series: &[Series], inks: &Inks
     legend::names(drawing, frame, &list, inks)
 }
 
-/// Draws one plot with ticks and names of its axes into a frame, and returns the panel for further drawing.
+/// Draws one plot into a frame, with the ticks and names of its axes. Returns the panel, by which more can be drawn at
+/// values of the plot.
 pub fn panel<'a>(drawing: &mut Drawing, frame: Frame, plot: &'a Plot, inks: &'a Inks) -> Panel<'a> {
     let wide = |axis: &Axis| marks(axis).iter().map(|mark| width(&axis.tick(*mark, 1.0), TEXT)).fold(0.0, f64::max);
     let named = |axis: &Axis| !axis.name.is_empty();
@@ -66,7 +72,8 @@ pub fn panel<'a>(drawing: &mut Drawing, frame: Frame, plot: &'a Plot, inks: &'a 
     panel
 }
 
-/// Returns the coordinates of the ticks on paper: whole decades, or round values.
+/// Returns the positions of an axis' ticks, as coordinates of the axis (values, or their decimal logarithms): whole
+/// decades, or round values.
 fn marks(axis: &Axis) -> Vec<f64> {
     let ends = axis.ends();
     let decades = ends[1].floor() - ends[0].ceil();
@@ -79,19 +86,21 @@ fn marks(axis: &Axis) -> Vec<f64> {
 }
 
 impl Panel<'_> {
-    /// Returns the place on paper of a point in coordinates; a point outside the axes' ranges is drawn on the border.
+    /// Returns the position on paper of a point given in axis coordinates (values, or decimal logarithms on a
+    /// logarithmic axis); a point outside the axes' ranges is drawn on the border of the panel. \[drawing units\]
     pub fn place(&self, point: [f64; 2]) -> Point {
         let along = |coordinate: f64, [first, last]: [f64; 2]| ((coordinate - first) / (last - first)).clamp(0.0, 1.0);
         let [u, v] = [along(point[0], self.plot.x.ends()), along(point[1], self.plot.y.ends())];
         [self.area.left + self.area.width * u, self.area.bottom() - self.area.height * v]
     }
 
-    /// Returns the place on paper of a point in values; `None` if one of them is not a number.
+    /// Returns the position on paper of a point given by its values on x and y; `None` if one of them is not a number.
+    /// \[drawing units\]
     pub fn of(&self, values: [f64; 2]) -> Option<Point> {
         Some(self.place(self.plot.place(values)?))
     }
 
-    /// Draws border, a line and a label at every tick, and the names of the axes.
+    /// Draws the border of the panel, a grid line and a label at every tick, and the names of the axes.
     fn axes(&self, drawing: &mut Drawing) {
         let (area, inks) = (self.area, self.inks);
         let (x, y) = (&self.plot.x, &self.plot.y);
@@ -130,6 +139,8 @@ impl Panel<'_> {
         }
     }
 
+    /// Draws the guide lines of the plot with their names; a line that leaves the ranges of the axes is left out, and
+    /// so is a name that would cover others.
     fn guides(&self, drawing: &mut Drawing) {
         let mut used: Vec<Frame> = Vec::new();
         for guide in &self.plot.guides {
@@ -159,7 +170,8 @@ impl Panel<'_> {
         }
     }
 
-    /// Draws band, lines and marks of a series.
+    /// Draws a series: its band of lowest and highest values, its line, and its marks. `number`: index of the series,
+    /// which determines colour and dashes.
     fn series(&self, drawing: &mut Drawing, series: &Series, number: usize) {
         let colour = self.inks.series[number % self.inks.series.len()];
         for band in self.plot.bands(series) {

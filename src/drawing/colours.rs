@@ -1,17 +1,18 @@
-//! Colours of data and of their surroundings: colour maps, scales from values to colours, and the inks of a picture.
+//! Colours of data and of everything around them: colour maps, scales from values to colours, and the set of colours of
+//! a picture ([`Inks`]).
 
 use super::{Rgb, ticks};
 use colorgrad::Gradient;
 use std::sync::LazyLock;
 
-/// Colour map from 0 … 1 to a colour.
+/// Colour map: assigns a colour to each fraction 0 … 1 of a scale.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ColourMap {
-    /// Viridis: luminance, illuminance, luminance coefficient.
+    /// Viridis, dark violet to yellow: for luminance, illuminance and luminance coefficient.
     Sequential,
-    /// Blue over white to red: differences, zero in the middle.
+    /// Blue over white to red: for differences, with zero in the middle.
     Diverging,
-    /// Greys, dark to light: transmittance where viridis has another meaning beside it.
+    /// Greys, dark to light: for transmittance, where viridis shows another quantity beside it.
     Grey,
 }
 
@@ -28,7 +29,8 @@ static VIRIDIS: LazyLock<[Rgb; 256]> = LazyLock::new(|| table(&colorgrad::preset
 static BLUE_TO_RED: LazyLock<[Rgb; 256]> = LazyLock::new(|| table(&colorgrad::preset::rd_bu()));
 
 impl ColourMap {
-    /// Returns the colour of a fraction; values outside 0 … 1 get the end colours, NaN the lower one.
+    /// Returns the colour of a fraction of the scale (0: lowest, 1: highest value); fractions outside 0 … 1 get the
+    /// colours of the ends, NaN the lowest.
     pub fn rgb(self, fraction: f32) -> Rgb {
         // A cast of NaN gives 0.
         let index = (fraction.clamp(0.0, 1.0) * 255.0).round() as usize;
@@ -40,36 +42,38 @@ impl ColourMap {
     }
 }
 
-/// Colour scale over lo … hi.
+/// Colour scale: assigns a colour to each value between its two ends, linearly or logarithmically.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ColourScale {
-    /// Value of the first colour, positive when `log`.
+    /// Value of the first colour, in the unit of the quantity shown; positive when `log`.
     pub lo: f64,
-    /// Value of the last colour, above `lo`.
+    /// Value of the last colour, in the unit of the quantity shown; above `lo`.
     pub hi: f64,
     /// Whether the scale is logarithmic instead of linear.
     pub log: bool,
-    /// Colour map.
+    /// Colours of the scale, from `lo` to `hi`.
     pub map: ColourMap,
 }
 
 impl ColourScale {
-    /// Creates a scale from zero (linear) or `decades` below the top (log) to a round number at or above `max`.
+    /// Creates a scale that ends at a round number at or above `max` (in the unit of the quantity shown), and begins at
+    /// zero, or `decades` powers of ten below its end when `log`.
     pub fn up_to(max: f64, log: bool, decades: i32, map: ColourMap) -> Self {
         let hi = if log { ticks::nice_ceil(max) } else { ticks::fine_ceil(max) };
         let lo = if log { hi * 10_f64.powi(-decades.max(1)) } else { 0.0 };
         Self { lo, hi, log, map }
     }
 
-    /// Creates a logarithmic scale between round numbers around the data; at least one decade, at most six.
+    /// Creates a logarithmic scale from a round number at or below `min` to one at or above `max`, the ends of the data
+    /// in their unit; it has at least one decade and at most six.
     pub fn log_around(min: f64, max: f64, map: ColourMap) -> Self {
         let hi = ticks::nice_ceil(max);
         let lo = 1.0 / ticks::nice_ceil(1.0 / min.clamp(hi * 1e-6, hi * 0.1));
         Self { lo, hi, log: true, map }
     }
 
-    /// Returns the place of a value on the scale: 0 at `lo`, 1 at `hi`; not limited. Values without a logarithm are
-    /// below the scale.
+    /// Returns the position of a value on the scale: 0 at `lo`, 1 at `hi`, less or more for values beyond these ends.
+    /// Values without a logarithm are below a logarithmic scale: −1.
     pub fn fraction(&self, value: f64) -> f32 {
         if self.log {
             if value > 0.0 { ((value / self.lo).ln() / (self.hi / self.lo).ln()) as f32 } else { -1.0 }
@@ -78,33 +82,35 @@ impl ColourScale {
         }
     }
 
-    /// Returns the colour of a value on paper.
+    /// Returns the colour of a value; values beyond the ends of the scale get the colours of its ends.
     pub fn rgb(&self, value: f64) -> Rgb {
         self.map.rgb(self.fraction(value))
     }
 
-    /// Returns round values on the scale, at most about `count`.
+    /// Returns round values on the scale at which it can be labelled, at most about `count`.
     pub fn marks(&self, count: usize) -> Vec<f64> {
         if self.log { ticks::logarithmic(self.lo, self.hi, count) } else { ticks::linear(self.lo, self.hi, count) }
     }
 }
 
-/// Returns black or white, whichever is better legible on a ground.
+/// Returns black or white, whichever is better legible on a background of the given colour.
 pub fn contrast([r, g, b]: Rgb) -> Rgb {
     let luminance = 0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b);
     if luminance > 120.0 { [0; 3] } else { [255; 3] }
 }
 
-/// Returns a colour between two, `share` from 0 for `a` to 1 for `b`.
+/// Returns the mixture of two colours in sRGB values; `share` runs from 0 for `a` to 1 for `b`.
 pub fn mixed(a: Rgb, b: Rgb, share: f64) -> Rgb {
     let part = |x: u8, y: u8| (f64::from(x) * (1.0 - share) + f64::from(y) * share).round() as u8;
     [part(a[0], b[0]), part(a[1], b[1]), part(a[2], b[2])]
 }
 
-/// Colours of the series; distinguishable with all common kinds of colour vision (after Okabe and Ito).
+/// Colours of the curves of a chart on screen, in the order of its series; distinguishable with all common kinds of
+/// colour vision (after Okabe and Ito).
 pub const SERIES: [Rgb; 5] = [[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167], [213, 94, 0]];
 
-/// Colours of everything but the data, on white paper.
+/// Set of colours for everything in a picture that no colour map colours: text, lines, curves and symbols, on white
+/// paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inks {
     /// Colour of text and main lines.
@@ -113,22 +119,22 @@ pub struct Inks {
     pub weak: Rgb,
     /// Colour of grid lines.
     pub grid: Rgb,
-    /// Colour of the borders of pictures.
+    /// Colour of the border lines around charts, disks and colour scales.
     pub outline: Rgb,
-    /// Colour of the ground of a picture without data.
+    /// Background of a chart or disk where there are no data.
     pub face: Rgb,
     /// Colours of the curves, the most important first.
     pub series: [Rgb; 5],
-    /// Whether the curves after the first are dashed: for prints without colours.
+    /// Whether all curves but the first are dashed, so that prints without colours distinguish them.
     pub dashes: bool,
-    /// Colour of the sun.
+    /// Colour of the symbol at the position of the sun.
     pub sun: Rgb,
-    /// Colour of unscattered light.
+    /// Colour of unscattered light: symbols of beams and of regular transmission.
     pub beam: Rgb,
 }
 
 impl Inks {
-    /// Colours as on a light screen.
+    /// Colours for screens with a light background.
     pub const LIGHT: Self = Self {
         ink: [30; 3],
         weak: [95; 3],
@@ -141,7 +147,7 @@ impl Inks {
         beam: [215, 40, 40],
     };
 
-    /// Colours for printers: black text and frames, and curves that are distinguished without colours too.
+    /// Colours for printers: black text and frames; curves differ by dashes as well, for prints without colours.
     pub const PRINT: Self = Self {
         ink: [0; 3],
         weak: [40; 3],
@@ -154,7 +160,8 @@ impl Inks {
         beam: [0; 3],
     };
 
-    /// Returns the line of a curve by its number.
+    /// Returns the line of a chart's curve in the colour (and, for print, the dashes) of its number, counted from 0.
+    /// `points`, `width`: in drawing units.
     pub fn curve(&self, number: usize, points: Vec<super::Point>, width: f64) -> super::Shape {
         const DASHES: [[f64; 2]; 4] = [[7.0, 3.0], [2.0, 2.5], [10.0, 4.0], [4.0, 5.0]];
         let colour = self.series[number % self.series.len()];

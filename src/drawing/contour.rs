@@ -1,13 +1,15 @@
-//! Iso-lines of a grid by marching squares, joined to polylines. Pure.
+//! Iso-lines of values on a regular grid (such as illuminances on the work plane), by marching squares, joined to
+//! polylines. Pure.
 
 use super::colours::ColourScale;
 use super::ticks::logarithmic;
 use std::collections::HashMap;
 
-/// Iso-line in grid units: x = column, y = row of the nodes.
+/// Iso-line: line of constant value in a grid. Coordinates are in grid steps: x is the column and y the row of a node,
+/// both from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IsoLine {
-    /// Points in order; for a closed line the first is not repeated.
+    /// Points (column, row) in order along the line \[grid steps\]; for a closed line the first is not repeated.
     pub points: Vec<[f64; 2]>,
     /// Whether the line returns to its first point.
     pub closed: bool,
@@ -16,8 +18,8 @@ pub struct IsoLine {
 /// Edge of the grid: from node (column, row) to the right (false) or upwards (true).
 type Edge = (usize, usize, bool);
 
-/// Returns all lines on which the field has the value `level`. `values` holds `nx` · `ny` nodes, x running fastest.
-/// Squares with a node that is not finite are left out; saddles are decided by the mean of their four nodes.
+/// Returns all lines on which the gridded quantity has the value `level`. `values` holds `nx` · `ny` nodes, x running
+/// fastest. Squares with a node that is not finite are left out; saddles are decided by the mean of their four nodes.
 pub fn iso_lines(nx: usize, ny: usize, values: &[f64], level: f64) -> Vec<IsoLine> {
     if nx < 2 || ny < 2 || values.len() != nx * ny {
         return vec![];
@@ -66,7 +68,8 @@ pub fn iso_lines(nx: usize, ny: usize, values: &[f64], level: f64) -> Vec<IsoLin
         .collect()
 }
 
-/// Follows the links: open chains from their ends first, then the remaining ones as loops.
+/// Joins links between edges of the grid to chains, and tells for each whether it is closed: open chains from their
+/// ends first, then the remaining ones as loops.
 fn trace(mut links: HashMap<Edge, Vec<Edge>>) -> Vec<(Vec<Edge>, bool)> {
     let mut starts: Vec<Edge> = links.keys().copied().collect();
     // A fixed order, so that labels do not jump; ends (one link) before inner points (two).
@@ -99,7 +102,8 @@ fn trace(mut links: HashMap<Edge, Vec<Edge>>) -> Vec<(Vec<Edge>, bool)> {
     chains
 }
 
-/// Returns round levels inside the range of the data, few enough to be distinguished.
+/// Returns round illuminances for iso-lines, strictly between the smallest and the largest of `totals`, few enough to
+/// be distinguished, and with the levels that standards demand. \[lx\]
 pub fn iso_levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
     let (min, max) = totals.iter().fold((f64::INFINITY, 0.0_f64), |(a, b), v| (a.min(*v), b.max(*v)));
     if min >= max || totals.is_empty() {
@@ -116,7 +120,7 @@ pub fn iso_levels(scale: &ColourScale, totals: &[f64]) -> Vec<f64> {
     levels
 }
 
-/// Levels that standards demand: their lines always have their names. \[lx\]
+/// Illuminances that standards demand at workplaces; iso-lines of these levels always have a label. \[lx\]
 pub const ASKED_FOR: [f64; 2] = [300.0, 500.0];
 
 #[cfg(test)]

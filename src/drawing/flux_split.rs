@@ -1,27 +1,30 @@
-//! Split of the transmitted light by the zones of the room that it reaches, in shares and in words.
+//! Split of the transmitted flux by the zones of the room at which it is directed, in shares and in words.
 
 use crate::texts::{Text, fixed, tiles as say};
 
-/// Transmitted light by zone of the room, as shares of the incident light; their sum is τ of that situation.
+/// Transmitted luminous flux by zone of the room, where a zone is a range of elevations of the emergent direction; each
+/// as a share of the flux that is incident on the system. Their sum is the transmittance τ for the incidence
+/// considered.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FluxSplit {
-    /// Share upwards, on the ceiling.
+    /// Share of the incident flux that leaves upwards, towards the ceiling.
     pub ceiling: f64,
-    /// Share on the work plane.
+    /// Share of the incident flux that leaves downwards at a moderate angle, towards the work plane.
     pub work_zone: f64,
-    /// Share at the height of the eyes.
+    /// Share of the incident flux that leaves nearly horizontally, towards the eyes of people in the room.
     pub eye_zone: f64,
-    /// Share steeply down, on the floor near the façade.
+    /// Share of the incident flux that leaves steeply down, towards the floor near the façade.
     pub floor: f64,
 }
 
 impl FluxSplit {
-    /// Returns the sum of the shares.
+    /// Returns the transmittance τ: the sum of the shares of all zones.
     pub fn total(&self) -> f64 {
         self.parts().iter().map(|(_, share)| share).sum()
     }
 
-    /// Returns the zones from top to bottom with their names and shares.
+    /// Returns the four zones from top to bottom (ceiling, eyes, work plane, floor), each with its translated name and
+    /// its share of the incident flux.
     pub fn parts(&self) -> [(Text, f64); 4] {
         [
             (say::CEILING, self.ceiling),
@@ -31,7 +34,7 @@ impl FluxSplit {
         ]
     }
 
-    /// Returns the number of the zone with the largest share, from top to bottom.
+    /// Returns the index, from top to bottom, of the zone with the largest share.
     fn greatest(&self) -> usize {
         let parts = self.parts();
         (0..4).fold(0, |best, zone| if parts[zone].1 > parts[best].1 { zone } else { best })
@@ -52,7 +55,9 @@ impl FluxSplit {
         }
     }
 
-    /// Returns all zones in one line, in the order of the bar, then ever shorter versions of it.
+    /// Returns four texts of falling length, of which a caller shows the longest that fits: all zones with their
+    /// percentages in one line, the same with short names, the zone with the largest share with the total, and that
+    /// zone alone.
     pub fn lines(&self) -> [String; 4] {
         let all = percent(self.total());
         let [ceiling, eye, work, floor] = self.parts().map(|(_, share)| percent(share));
@@ -67,7 +72,7 @@ impl FluxSplit {
     }
 }
 
-/// Returns a share as whole percents; with one decimal below 1 %.
+/// Returns a share of one as a number in per cent, without the sign: whole, with one decimal below 1 %.
 pub fn percent(share: f64) -> String {
     let value = 100.0 * share;
     fixed(value, usize::from(value < 1.0 && value > 0.0))

@@ -7,15 +7,15 @@ use crate::texts::visual_parts;
 use rustybuzz::{Direction, Face, UnicodeBuffer, shape};
 use std::sync::LazyLock;
 
-/// Font file, for embedding.
+/// Content of the font file DejaVu Sans (TrueType), which documents embed.
 pub static DEJAVU: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
 
-/// Height of the middle of capitals above the baseline, relative to the size.
+/// Height of the middle of capital letters above the baseline, as a fraction of the font size.
 pub const MIDDLE: f64 = 0.36;
-/// Distance between lines of text, relative to the size.
+/// Distance between the baselines of two lines of text, as a multiple of the font size.
 pub const LEADING: f64 = 1.4;
 
-/// Tables of the font by their first byte.
+/// Tables of the font file, each by the offset of its first byte in the file.
 struct Font {
     glyf: usize,
     loca: usize,
@@ -50,7 +50,8 @@ fn table(tag: &[u8; 4]) -> usize {
     record.map_or(DEJAVU.len(), |at| u32_at(at + 8) as usize)
 }
 
-/// Returns the groups of the character map in format 12, which covers all planes.
+/// Returns the groups of the character map in format 12, which covers all planes of Unicode: first and last character,
+/// and glyph of the first.
 fn groups(cmap: usize) -> Vec<[u32; 3]> {
     let count = usize::from(u16_at(cmap + 2));
     let starts = (0..count).map(|k| cmap + u32_at(cmap + 4 + 8 * k + 4) as usize);
@@ -84,7 +85,7 @@ impl Font {
         f64::from(u16_at(self.hmtx + 4 * usize::from(row))) / self.units
     }
 
-    /// Returns the first byte of a glyph; `None` for one without ink.
+    /// Returns the offset of a glyph's outline in the font file; `None` for a glyph without ink.
     fn place(&self, glyph: u16) -> Option<usize> {
         let index = usize::from(glyph);
         let [from, to] = [index, index + 1].map(|k| {
@@ -93,7 +94,8 @@ impl Font {
         (to > from).then_some(self.glyf + from)
     }
 
-    /// Adds the contours of a glyph in units of the font, y up. `depth` limits the nesting of composite glyphs.
+    /// Adds the contours of a glyph in units of the font, x to the right and y up from the start of its baseline.
+    /// `depth` limits the nesting of composite glyphs.
     fn contours(&self, glyph: u16, depth: usize, out: &mut Vec<Vec<Point>>) {
         let Some(start) = self.place(glyph) else { return };
         let count = i16_at(start);
@@ -104,6 +106,8 @@ impl Font {
         }
     }
 
+    /// Adds the contours of a composite glyph: those of its parts, each transformed by the matrix and offset that stand
+    /// at `at` in the font file.
     fn composite(&self, mut at: usize, depth: usize, out: &mut Vec<Vec<Point>>) {
         loop {
             let (flags, glyph) = (u16_at(at), u16_at(at + 2));
@@ -142,7 +146,7 @@ impl Font {
 /// Number of line pieces per curve.
 const STEPS: usize = 5;
 
-/// Adds the contours of a simple glyph: end points, instructions, flags, x, y.
+/// Adds the contours of a simple glyph, read from its table in the font file: end points, instructions, flags, x, y.
 fn simple(start: usize, count: usize, out: &mut Vec<Vec<Point>>) {
     if count == 0 {
         return;
@@ -192,7 +196,8 @@ fn middle(a: Point, b: Point) -> Point {
     [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]
 }
 
-/// Returns quadratic curves as short lines; between two control points lies a point of the curve.
+/// Returns a contour of quadratic curves as a polygon of short lines. Points are on the curve (`true`) or control
+/// points; midway between two control points lies a point of the curve.
 fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
     let n = contour.len();
     let mut out = Vec::new();
@@ -217,7 +222,7 @@ fn flattened(contour: &[(Point, bool)]) -> Vec<Point> {
 /// Font as the shaper reads it.
 static FACE: LazyLock<Option<Face<'static>>> = LazyLock::new(|| Face::from_slice(DEJAVU, 0));
 
-/// Glyph of a line. Lengths are relative to the size.
+/// Glyph of a line of text, with its width. Lengths are multiples of the font size.
 struct Placed {
     glyph: u16,
     advance: f64,
@@ -225,7 +230,7 @@ struct Placed {
     shift: Point,
 }
 
-/// Returns the glyphs of a line from left to right.
+/// Returns the glyphs of a line of text in the order in which they are drawn, from left to right.
 fn placed(text: &str) -> Vec<Placed> {
     let font = &*FONT;
     let mut placed = Vec::with_capacity(text.len());
@@ -255,12 +260,13 @@ pub fn missing_characters(text: &str) -> impl Iterator<Item = char> {
     text.chars().filter(|c| !c.is_control() && FONT.glyph(*c) == 0)
 }
 
-/// Returns the width of a text of a given size.
+/// Returns the width of one line of text in the drawings' font, DejaVu Sans. `size` and width: \[drawing units\].
 pub fn width(text: &str, size: f64) -> f64 {
     size * placed(text).iter().map(|one| one.advance).sum::<f64>()
 }
 
-/// Returns the outlines of a text's letters, one list per letter, y down, the baseline at 0 and beginning at 0.
+/// Returns the outlines of a line of text: one list per letter, each with its contours as closed polygons. Points are
+/// in the unit of `size`, x to the right from the start of the text, y down from its baseline.
 pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
     let font = &*FONT;
     let scale = size / font.units;
@@ -280,8 +286,8 @@ pub fn outlines(text: &str, size: f64) -> Vec<Vec<Vec<Point>>> {
         .collect()
 }
 
-/// Returns the lines of a text that are at most `most` wide, broken between words, and within a word that is wider than
-/// a line.
+/// Splits a text into lines that are at most `most` wide, between words, and within a word that is wider than a line.
+/// `size`, `most`: font size and width in drawing units.
 pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines = Vec::new();
     for paragraph in text.lines() {
@@ -307,7 +313,8 @@ pub fn wrapped(text: &str, size: f64, most: f64) -> Vec<String> {
     lines
 }
 
-/// Returns a text that is at most `most` wide, its end as "…" where it would be wider.
+/// Returns a text that is at most `most` wide, its end replaced by "…" where it would be wider. `size`, `most`: font
+/// size and width in drawing units.
 pub fn shortened(text: &str, size: f64, most: f64) -> String {
     if width(text, size) <= most {
         return text.to_owned();

@@ -1,4 +1,5 @@
-//! A hemisphere as a disk, seen from inside the room: up is up, right is the viewer's right.
+//! A hemisphere of directions as a disk, seen from inside the room: up in the picture is up in the room, right is the
+//! viewer's right.
 //!
 //! The façade frame counts x to the right seen from **outside**; a viewer inside has −x on the right. Both disks use
 //! the same axes: an incident direction is drawn where its source is seen, an emergent one where its light **arrives**,
@@ -14,7 +15,7 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::texts::tiles as say;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
-/// Projection of the polar angle to a radius.
+/// Projection of a hemisphere of directions to a disk: the polar angle θ from the element's normal becomes a radius.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Projection {
     /// r = sin θ: equal areas are equal **projected** solid angles, so area × value is flux.
@@ -25,7 +26,8 @@ pub enum Projection {
 }
 
 impl Projection {
-    /// Returns the radius of a polar angle. \[rad\]
+    /// Returns the radius at which directions of polar angle `theta` \[rad\] from the normal are drawn, as a fraction
+    /// of the disk's radius.
     pub fn radius(self, theta: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => theta.sin(),
@@ -33,7 +35,8 @@ impl Projection {
         }
     }
 
-    /// Returns the polar angle of a radius, 0 … 1. \[rad\]
+    /// Returns the polar angle from the normal \[rad\] of the directions that are drawn at `radius`, a fraction 0 … 1
+    /// of the disk's radius.
     pub fn theta(self, radius: f64) -> f64 {
         match self {
             Self::ProjectedSolidAngle => radius.clamp(0.0, 1.0).asin(),
@@ -42,22 +45,28 @@ impl Projection {
     }
 }
 
-/// Hemisphere of a disk, which determines how a through direction's azimuth is drawn.
+/// Hemisphere that a disk shows, which determines how azimuths of the façade frame are drawn. Emergent directions are
+/// given by the incident direction whose undeviated light leaves in them (ω′ = −ω, the *through direction*), because
+/// transmitted data are stored by it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// Hemisphere of the incident directions.
+    /// Hemisphere of the incident directions, each drawn where its source is seen.
     Incident,
-    /// Hemisphere of the emergent directions.
+    /// Hemisphere of the emergent directions, each drawn where its light arrives.
     Emergent,
 }
 
 impl Side {
-    /// Returns the disk point of a through direction (for [`Side::Incident`] of the incident direction itself).
+    /// Returns the disk point (right, up; rim at radius 1) of a direction: for [`Side::Incident`] of the incident
+    /// direction `through`, for [`Side::Emergent`] of the emergent direction in which light from `through` leaves
+    /// undeviated.
     pub fn disk(self, projection: Projection, through: Dir<Facade>) -> [f64; 2] {
         self.polar(projection.radius(through.theta().min(FRAC_PI_2)), through.phi())
     }
 
-    /// Returns the disk point of a radius and a through direction's azimuth.
+    /// Returns the disk point (right, up; rim at radius 1) at a radius and an azimuth. `phi`: azimuth of the façade
+    /// frame \[rad\] of the incident direction itself, or of the one whose undeviated light leaves in the emergent
+    /// direction.
     pub fn polar(self, radius: f64, phi: f64) -> [f64; 2] {
         let (sin, cos) = phi.sin_cos();
         match self {
@@ -66,7 +75,9 @@ impl Side {
         }
     }
 
-    /// Returns the through direction of a disk point; `None` outside the rim.
+    /// Returns the direction that is drawn at a disk point (right, up; rim at radius 1), `None` outside the rim: for
+    /// [`Side::Incident`] the incident direction itself, for [`Side::Emergent`] the incident direction whose undeviated
+    /// light leaves in the emergent direction of that point.
     pub fn through_name(self, projection: Projection, [right, up]: [f64; 2]) -> Option<Dir<Facade>> {
         let radius = right.hypot(up);
         if radius > 1.0 {
@@ -80,22 +91,25 @@ impl Side {
     }
 }
 
-/// Returns the disk point of an incident direction.
+/// Returns the disk point (right, up; rim at radius 1) of an incident direction: where its source is seen from inside
+/// the room.
 pub fn incident_disk(projection: Projection, incident: Incident) -> [f64; 2] {
     Side::Incident.disk(projection, incident.0)
 }
 
-/// Returns the disk point of an emergent direction.
+/// Returns the disk point (right, up; rim at radius 1) of an emergent direction: where its light arrives, seen from
+/// inside the room.
 pub fn emergent_disk(projection: Projection, emergent: Emergent) -> [f64; 2] {
     Side::Emergent.disk(projection, emergent.through_name())
 }
 
-/// Returns the number of steps along the arcs of a cell, each 3° or less.
+/// Returns the number of straight pieces by which each arc of a cell of a basis is drawn; each spans 3° of azimuth or
+/// less.
 pub fn arc_steps(cell: &Cell) -> usize {
     ((cell.width / 3_f64.to_radians()).ceil() as usize).max(1)
 }
 
-/// Returns the outline of a cell as a closed polygon in disk coordinates.
+/// Returns the outline of a cell of a basis as a closed polygon in disk coordinates (right, up; rim at radius 1).
 pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64; 2]> {
     let n = arc_steps(cell);
     let (inner, outer) = (projection.radius(cell.theta_min), projection.radius(cell.theta_max));
@@ -112,8 +126,8 @@ pub fn cell_outline(projection: Projection, side: Side, cell: &Cell) -> Vec<[f64
     points
 }
 
-/// Returns the scattering data if they are of listed incident directions that do not form a lattice: these have no
-/// cells of their own.
+/// Returns the scattering data of a system if they consist of single incident directions that do not form a lattice;
+/// these have no cells of a basis by which they could be drawn. `None` for all other data.
 pub fn listed(btdf: &Btdf) -> Option<&Indicatrices> {
     match &btdf.scattered {
         Some(Scattered::Directions(data)) if data.lattice().is_none() => Some(data),
@@ -121,40 +135,41 @@ pub fn listed(btdf: &Btdf) -> Option<&Indicatrices> {
     }
 }
 
-/// Returns the cells by which incidence is drawn: the data's own; for listed directions fine ones, each with its
-/// nearest direction.
+/// Returns the cells in which quantities are drawn on the disk of incident directions: those of the data, or fine ones
+/// for data at single directions, where each cell shows the direction nearest to it.
 pub fn incident_cells(btdf: &Btdf) -> RingBasis {
     if listed(btdf).is_some() { RingBasis::equal_area(20) } else { btdf.incident_basis() }
 }
 
-/// Returns the disk point (right, up) of a place in the sky as seen lying on one's back: north up, so east is left; the
-/// zenith in the middle, equal steps of altitude. \[rad\]
+/// Returns the disk point (right, up; rim at radius 1) of a position in the sky, as seen when lying on one's back:
+/// north is up, so east is left; the zenith is in the middle, and the radius falls linearly with altitude. `altitude`,
+/// `bearing` (clockwise from north): \[rad\].
 pub fn dome_point(altitude: f64, bearing: f64) -> [f64; 2] {
     let r = 1.0 - altitude / FRAC_PI_2;
     [-r * bearing.sin(), r * bearing.cos()]
 }
 
-/// Place of a disk on paper.
+/// Disk of a hemisphere on paper: position and size of its rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Round {
-    /// Centre of the disk.
+    /// Centre of the disk. \[drawing units from the upper left corner of the paper\]
     pub centre: Point,
-    /// Radius of the rim.
+    /// Radius of the rim. \[drawing units\]
     pub radius: f64,
 }
 
 impl Round {
-    /// Creates the largest disk within a frame that leaves a margin round it.
+    /// Creates the largest disk that fits into a frame and leaves a margin to the frame's edges. \[drawing units\]
     pub fn within(frame: Frame, margin: f64) -> Self {
         Self { centre: frame.centre(), radius: (0.5 * frame.width.min(frame.height) - margin).max(8.0) }
     }
 
-    /// Returns the place on paper of a disk point.
+    /// Returns the position on paper \[drawing units\] of a disk point (right, up; rim at radius 1).
     pub fn place(&self, [right, up]: [f64; 2]) -> Point {
         [self.centre[0] + right * self.radius, self.centre[1] - up * self.radius]
     }
 
-    /// Draws all cells of a basis in flat colours.
+    /// Returns the shapes of all cells of a basis, each in the one colour that `colour` gives for its index.
     pub fn cells(
         &self,
         (projection, side): (Projection, Side),
@@ -168,7 +183,8 @@ impl Round {
         basis.cells().enumerate().map(cell).collect()
     }
 
-    /// Draws a continuous function of the disk's points, in small flat cells.
+    /// Returns the shapes of a continuous quantity over the disk, as small cells of one colour each. `colour`: colour
+    /// at a disk point (right, up; rim at radius 1).
     pub fn field(&self, colour: impl Fn([f64; 2]) -> Rgb) -> Vec<Shape> {
         const RINGS: usize = 30;
         const SECTORS: usize = 72;
@@ -188,7 +204,8 @@ impl Round {
         shapes
     }
 
-    /// Draws rings at 30° and 60° from the normal with their names, the rim, and the names of its sides.
+    /// Returns the shapes of the disk's frame: labelled rings at 30° and 60° from the normal, the rim, and the words
+    /// for up, left and right around it.
     pub fn rim(&self, projection: Projection, inks: &Inks) -> Vec<Shape> {
         let mut shapes = Vec::new();
         for degrees in [30.0_f64, 60.0] {
@@ -215,7 +232,8 @@ impl Round {
     }
 }
 
-/// Draws small text on data: a light ground makes it legible on every colour.
+/// Returns a text centred at a position on paper, with a translucent white background that makes it legible on every
+/// colour of data.
 pub fn on_halo(at: Point, text: &str, inks: &Inks) -> [Shape; 2] {
     let half = 0.5 * width(text, TEXT) + 2.0;
     let ground = Frame::new(at[0] - half, at[1] - 7.5, 2.0 * half, 15.0).corners().to_vec();

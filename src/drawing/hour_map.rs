@@ -1,5 +1,5 @@
-//! Map of the hours of a year: one column per day, one row per part of the day, midnight at the bottom, one colour per
-//! value. The window and files draw the same map.
+//! Map of a quantity over the hours of a year: one column per day, one row per time step of the day, midnight at the
+//! bottom; the colour of a cell shows its value. The window and files draw the same map.
 
 use super::chart::{self, Panel};
 use super::colours::{ColourMap, ColourScale, Inks};
@@ -9,51 +9,55 @@ use super::{Align, Drawing, Frame, Rgb, Shape, TEXT, font, legend};
 use crate::texts::{csv_cell, words::MONTHS, year as say};
 use std::fmt::Write as _;
 
-/// Number of days before each month of a common year, and of a leap year.
+/// Number of days before each month: of a common year, and of a leap year.
 const BEFORE: [[u16; 12]; 2] =
     [[0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334], [0, 31, 60, 91, 121, 152, 182, 213, 244, 274, 305, 335]];
 
-/// Meaning of the colours of a map.
+/// Meaning of the colours of an hour map: values of a quantity, or states of a product.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colours {
-    /// Values on a scale, in a unit.
+    /// Values on a colour scale, with the unit of the quantity.
     Scale(ColourScale, &'static str),
-    /// Names of states, whose places in the list are the values.
+    /// Names of states; the value of a cell is the index of its state in this list.
     Names(Vec<String>),
 }
 
-/// Interval of a map with its value.
+/// Time step of the year with its value, as input of an hour map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
     /// Month, 1 … 12.
     pub month: u8,
     /// Day of the month, 1 … 31.
     pub day: u8,
-    /// Minutes from midnight to the interval's middle.
+    /// Time from midnight to the middle of the interval. \[min\]
     pub minute: u16,
-    /// Value; NaN if there is none.
+    /// Value of the mapped quantity in its unit, or index of a state; NaN if there is none.
     pub value: f64,
 }
 
-/// Map of hours over the days of a year.
+/// Map of a quantity over the time of day and the days of a year. Cells are numbered day after day, within a day from
+/// midnight on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HourMap {
-    /// Quantity of the map, in words without unit.
+    /// Name of the mapped quantity, without its unit.
     pub name: String,
-    /// Number of columns: 365, or 366 where a 29 February is among the intervals.
+    /// Number of columns of the map, one per day: 365, or 366 where a 29 February is among the intervals.
     pub days: usize,
-    /// Number of rows: parts of a day.
+    /// Number of rows of the map: time steps of equal length from midnight to midnight.
     pub rows: usize,
-    /// Values of the cells, day after day, rows rising; NaN where there is none.
+    /// Values of the cells, in the unit of the quantity or as indices of states, day after day and within a day from
+    /// midnight on; NaN where there is none.
     pub values: Vec<f64>,
-    /// Index of the interval in each cell.
+    /// Index of the interval that each cell shows, in the list from which the map was created; `None` where there was
+    /// no interval.
     pub from: Vec<Option<u32>>,
-    /// Meaning of the colours.
+    /// Meaning of the values and their colours.
     pub colours: Colours,
 }
 
 impl HourMap {
-    /// Creates a map of intervals of `length` minutes; of several at one place of the calendar the first is shown.
+    /// Creates a map of intervals that are `length` minutes long. Where several fall on the same day and time of day
+    /// (of different years), the first is shown.
     pub fn of(name: String, colours: Colours, length: f64, intervals: &[Interval]) -> Self {
         let leap = intervals.iter().any(|one| (one.month, one.day) == (2, 29));
         let days = 365 + usize::from(leap);
@@ -73,7 +77,8 @@ impl HourMap {
         map
     }
 
-    /// Returns the cell at a place of the calendar; `None` beyond it.
+    /// Returns the index of the cell at a month (1 … 12), day of the month and minute of the day; `None` for dates and
+    /// times outside the map.
     pub fn cell(&self, month: u8, day: u8, minute: u16) -> Option<usize> {
         let month = usize::from(month.checked_sub(1)?);
         let leap = usize::from(self.days > 365);
@@ -82,26 +87,28 @@ impl HourMap {
         (column < self.days && row < self.rows).then_some(column * self.rows + row)
     }
 
-    /// Returns the cell at a day (from 0) and an hour of the day; the nearest one where they lie beyond the map.
+    /// Returns the index of the cell at a day of the year (from 0) and an hour of the day (0 … 24), both with
+    /// fractions; the nearest cell if they lie outside the map.
     pub fn at(&self, day: f64, hour: f64) -> usize {
         let row = ((hour / 24.0 * self.rows as f64).max(0.0) as usize).min(self.rows - 1);
         (day.max(0.0) as usize).min(self.days - 1) * self.rows + row
     }
 
-    /// Returns the middle of a cell: day from 0, and hour.
+    /// Returns the time at the middle of a cell: day of the year from 0, and hour of the day, both with fractions.
     pub fn middle(&self, cell: usize) -> [f64; 2] {
         let (day, row) = (cell / self.rows, cell % self.rows);
         [day as f64 + 0.5, (row as f64 + 0.5) * 24.0 / self.rows as f64]
     }
 
-    /// Returns the cell `days` days and `rows` rows away; `None` beyond the map.
+    /// Returns the index of the cell that lies `days` columns later and `rows` rows higher than a cell (less for
+    /// negative numbers); `None` outside the map.
     pub fn beside(&self, cell: usize, days: i32, rows: i32) -> Option<usize> {
         let rows = i64::from(days) * self.rows as i64 + i64::from(rows);
         let other = usize::try_from(cell as i64 + rows).ok()?;
         (other < self.values.len()).then_some(other)
     }
 
-    /// Returns month, day and minute at which a cell begins.
+    /// Returns month (1 … 12), day of the month and minute of the day at which a cell begins.
     pub fn date(&self, cell: usize) -> (u8, u8, u16) {
         let day = (cell / self.rows) as u16;
         let before = BEFORE[usize::from(self.days > 365)];
@@ -109,7 +116,7 @@ impl HourMap {
         ((month + 1) as u8, (day - before[month] + 1) as u8, (cell % self.rows * 1440 / self.rows) as u16)
     }
 
-    /// Returns the time of a cell as `21 Jun, 12:00–13:00`.
+    /// Returns the date and the time span of a cell as text, such as `21 Jun, 12:00–13:00`.
     pub fn when(&self, cell: usize) -> String {
         let (month, day, start) = self.date(cell);
         let at = |minutes: usize| format!("{:02}:{:02}", minutes / 60, minutes % 60);
@@ -117,7 +124,8 @@ impl HourMap {
         say::day_span(day, MONTHS[usize::from(month) - 1], at(usize::from(start)), at(end))
     }
 
-    /// Returns the value of a cell with its unit, or the state's name, or that there is no value.
+    /// Returns the value of a cell as text with its unit, or the name of its state, or words that say why there is no
+    /// value.
     pub fn words(&self, cell: usize) -> String {
         match (&self.colours, self.values[cell]) {
             (_, value) if value.is_nan() => {
@@ -142,7 +150,7 @@ impl HourMap {
         (!value.is_nan()).then(|| coloured(value))
     }
 
-    /// Returns the plot of the axes, without series.
+    /// Returns a plot with the axes of the map, days across and hours upwards, without series.
     pub fn plot(&self) -> Plot {
         Plot {
             x: Axis::linear([0.0, self.days as f64], "", Unit::Days),
@@ -152,7 +160,8 @@ impl HourMap {
         }
     }
 
-    /// Draws map and legend; `mark`: a cell that is marked.
+    /// Draws the map and its legend into a frame. `mark`: index of a cell that gets a ring, such as that of the present
+    /// time.
     pub fn draw(&self, drawing: &mut Drawing, frame: Frame, mark: Option<usize>, inks: &Inks) {
         let [above, below] = frame.cut_bottom(legend::HEIGHT);
         let plot = self.plot();
@@ -172,6 +181,7 @@ impl HourMap {
         }
     }
 
+    /// Draws the cells of the map; days of one colour that follow each other in a row are one rectangle.
     fn cells(&self, drawing: &mut Drawing, panel: &Panel<'_>) {
         let hour = |row: usize| row as f64 * 24.0 / self.rows as f64;
         for row in 0..self.rows {
@@ -191,8 +201,8 @@ impl HourMap {
         }
     }
 
-    /// Returns a CSV table of month, day and hour at which each cell begins, and its value or its state's name; empty
-    /// for cells without one. `column`: head of the values, without unit.
+    /// Returns the map as a CSV table: month, day and time at which each cell begins, and its value or the name of its
+    /// state; cells without a value are empty. `column`: heading of the values, without unit, which is added.
     pub fn csv(&self, column: &str) -> String {
         let unit = match &self.colours {
             Colours::Scale(_, unit) if !unit.is_empty() => format!(" ({unit})"),
@@ -213,12 +223,12 @@ impl HourMap {
     }
 }
 
-/// Returns the colour of one of `count` states.
+/// Returns the colour of the state with the given index, of `count` states in total.
 pub fn name_colour(count: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (count.max(2) - 1) as f32)
 }
 
-/// Draws the colours with the names of the states; of many only every n-th.
+/// Draws a legend of the states' colours and names; if they do not all fit, only every n-th.
 fn names_legend(drawing: &mut Drawing, frame: Frame, names: &[String], inks: &Inks) {
     let widest = names.iter().map(|name| font::width(name, TEXT)).fold(0.0, f64::max) + 28.0;
     let room = (frame.width / widest).max(1.0) as usize;

@@ -1,4 +1,5 @@
-//! Legends: a colour scale as a bar with marks and unit, and the names of curves.
+//! Legends of drawings: a colour scale as a bar with marks and unit, and samples of curves with their names. All
+//! lengths are in drawing units.
 
 use super::colours::{ColourScale, Inks};
 use super::font::width;
@@ -6,12 +7,13 @@ use super::shape::moved;
 use super::{Align, Drawing, Frame, Shape, TEXT, ticks};
 use crate::texts::tiles as say;
 
-/// Height that a colour scale needs.
+/// Height of the strip that a legend with a colour scale needs, its numbers included. \[drawing units\]
 pub const HEIGHT: f64 = 34.0;
-/// Height of a line of names.
+/// Height of one line of a legend with names of curves. \[drawing units\]
 pub const LINE: f64 = 19.0;
 
-/// Draws a colour scale with marks, and its quantity and unit at the right.
+/// Draws a colour scale into a frame: a bar of its colours, round values under it, and at its right the text `unit`
+/// (quantity and unit), which says that the scale is logarithmic where it is.
 pub fn scale(drawing: &mut Drawing, frame: Frame, scale: &ColourScale, unit: &str, inks: &Inks) {
     let words = if scale.log { say::logarithmic(unit) } else { unit.to_owned() };
     let room = (frame.width - width(&words, TEXT) - 28.0).max(40.0);
@@ -38,16 +40,18 @@ pub fn scale(drawing: &mut Drawing, frame: Frame, scale: &ColourScale, unit: &st
     }
 }
 
-/// Entry of a legend.
+/// Entry of a legend: a sample of a curve or a symbol, and its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Name {
-    /// Sample of the curve, from (0, 0) to (18, 0), or a symbol in its place.
+    /// Sample of the curve, or a symbol in its stead: a shape between (0, 0) and (18, 0), x to the right and y down
+    /// from the left end of the entry at half the height of its line. \[drawing units\]
     pub sample: Shape,
-    /// Name of the curve.
+    /// Name of the curve, written to the right of the sample.
     pub text: String,
 }
 
-/// Draws names side by side, in as many lines as they need; returns their height.
+/// Draws the entries of a legend side by side, in as many lines as the frame's width needs. Returns the height of all
+/// lines. \[drawing units\]
 pub fn names(drawing: &mut Drawing, frame: Frame, names: &[Name], inks: &Inks) -> f64 {
     let mut at = [frame.left, frame.top + 0.5 * LINE];
     for name in names {

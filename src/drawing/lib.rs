@@ -1,8 +1,9 @@
-//! Pictures that need no window: lines, areas and text, written as SVG, as PNG or (by `cfs-report`) as PDF, and what
-//! plots show, for these drawings ([`chart`]) as for the window. Pure: numbers in, shapes, text and bytes out.
+//! Pictures that need no window: lines, areas and text, written as SVG, as PNG or (by `cfs-report`) as PDF; and the
+//! content of plots, for these drawings ([`chart`]) and for the window. Pure: numbers in, shapes, text and bytes out.
 //!
-//! Coordinates are units of the drawing, x right, y down; files state the size of a unit. Text is set in DejaVu Sans
-//! ([`font`]), whose widths are known here, so that SVG, PNG and PDF agree.
+//! Positions and lengths are in *drawing units*, x to the right and y down from the upper left corner of the paper. A
+//! unit is one pixel by default; files for print state its size in mm. Text is set in DejaVu Sans ([`font`]), whose
+//! widths are known here, so that SVG, PNG and PDF agree.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 

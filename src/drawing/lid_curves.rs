@@ -1,22 +1,23 @@
-//! Section curves of a luminous intensity distribution, as polar diagrams draw them.
+//! Section curves of an aperture's luminous intensity distribution (LID), for polar diagrams.
 
 use crate::compute::direction::{Emergent, Surface};
 use crate::compute::lid::c_gamma::{Aim, Peak, Peaks};
 use crate::compute::lid::{EmergentLuminance, Lid};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Plane of a section through the distribution.
+/// Plane in which a polar diagram shows a luminous intensity distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum LidPlane {
-    /// Vertical plane C – C + 180°, C in whole degrees: 0 is into the room, 90 along the façade.
+    /// Vertical plane C – C + 180°, by C in whole degrees: 0° is into the room, 90° along the façade.
     Vertical(u16),
-    /// Horizontal plane γ = 90°, C 0° at the bottom.
+    /// Horizontal plane γ = 90°; C = 0° points down in the drawing.
     Horizontal,
 }
 
 impl LidPlane {
-    /// Returns the emergent direction for an angle from nadir (C 0° for [`LidPlane::Horizontal`]) towards the right of
-    /// the drawing, with C and γ as the luminaire file of the aperture counts them.
+    /// Returns the emergent direction at an angle \[rad\] in this plane, counted from nadir (in
+    /// [`LidPlane::Horizontal`] from C = 0°) towards the right of the drawing. `aim`: orientation of C and γ in the
+    /// luminaire file of the aperture.
     pub fn direction(self, aim: Aim, angle: f64) -> Emergent {
         match self {
             Self::Vertical(c) => aim.direction(f64::from(c).to_radians(), angle),
@@ -24,7 +25,8 @@ impl LidPlane {
         }
     }
 
-    /// Returns the name of the plane: both of its half-planes, the one to the right first.
+    /// Returns the name of the plane for a legend, such as "C0–C180": both of its half-planes, the one at the right of
+    /// the drawing first.
     pub fn label(&self) -> String {
         match *self {
             Self::Vertical(c) => format!("C{c}–C{}", (c + 180) % 360),
@@ -33,8 +35,9 @@ impl LidPlane {
     }
 }
 
-/// Returns the vertical planes to draw: across the aperture, and that of the greatest scattered intensity; where that
-/// is the same, and from a roof, also along the aperture. The greatest is never left out.
+/// Returns the vertical C planes to draw: the one perpendicular to the aperture (C0), and the one of the greatest
+/// scattered intensity, which is never left out. Where both are the same, and for roof apertures, the plane along the
+/// aperture (C90) is added.
 pub fn vertical_planes(surface: Surface, peaks: Option<&Peaks>) -> Vec<LidPlane> {
     let mut planes = vec![LidPlane::Vertical(0)];
     // At nadir and zenith all planes meet.
@@ -50,6 +53,7 @@ pub fn vertical_planes(surface: Surface, peaks: Option<&Peaks>) -> Vec<LidPlane>
     if planes.len() == 1 || surface == Surface::Roof && !planes.iter().any(|plane| same_plane(*plane, along)) {
         planes.push(along);
     }
+    /// Whether two planes are the same; vertical planes of C and C + 180° are.
     planes
 }
 
@@ -60,31 +64,35 @@ fn same_plane(a: LidPlane, b: LidPlane) -> bool {
     }
 }
 
-/// Number of samples of a section curve, evenly over a whole turn from nadir.
+/// Number of samples of a section curve, evenly over a full turn from nadir: one every 0.5°.
 pub const SAMPLES: usize = 720;
 
-/// Sampled section curves of a distribution. \[cd\]
+/// Luminous intensities of a distribution, sampled along the section curves of a polar diagram. \[cd\]
 #[derive(Debug, Clone)]
 pub struct Curves {
-    /// Curves of the vertical planes. \[cd\]
+    /// Vertical planes, each with its intensities at equal angles over a full turn, from nadir towards the right of the
+    /// drawing. \[cd\]
     pub vertical: Vec<(LidPlane, Vec<f64>)>,
-    /// Curve of the horizontal plane γ = 90°. \[cd\]
+    /// Intensities in the horizontal plane γ = 90°, at equal angles over a full turn from C = 0°. \[cd\]
     pub horizontal: Vec<f64>,
-    /// Maximum of all curves. \[cd\]
+    /// Largest intensity of all curves. \[cd\]
     pub max: f64,
 }
 
-/// Returns the intensity of scattered light in a direction. \[cd\]
+/// Returns the luminous intensity of the scattered light in an emergent direction, without beams; never negative.
+/// \[cd\]
 pub fn intensity(lid: &Lid, d: Emergent) -> f64 {
     lid.intensity(d).max(0.0)
 }
 
-/// Samples the section curves.
+/// Samples the luminous intensities of a distribution in the horizontal and the given vertical planes, at [`SAMPLES`]
+/// angles each.
 pub fn sample(lid: &Lid, planes: &[LidPlane]) -> Curves {
     sample_at(lid, planes, SAMPLES)
 }
 
-/// Samples the section curves with `count` samples each.
+/// Samples the luminous intensities of a distribution in the horizontal and the given vertical planes, at `count` equal
+/// angles over a full turn each.
 pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     let cuts = Cuts::of(lid, count);
     let vertical: Vec<_> = planes.iter().map(|plane| (*plane, cuts.along(*plane, 1))).collect();
@@ -94,8 +102,8 @@ pub fn sample_at(lid: &Lid, planes: &[LidPlane], count: usize) -> Curves {
     Curves { vertical, horizontal, max }
 }
 
-/// Returns the intensities as the curves show them, every `step` degrees (a divisor of 180): a list over γ from 0° to
-/// 180° for each C from 0° on. \[cd\]
+/// Returns the luminous intensities as the section curves show them, in steps of `step` degrees (a divisor of 180): for
+/// each C from 0° on, a list over γ from 0° (nadir) to 180°. \[cd\]
 pub fn table(lid: &Lid, step: u16) -> Vec<Vec<f64>> {
     let turn = usize::from(360 / step);
     // Whole multiples of the samples of a curve, about as many.
@@ -108,15 +116,16 @@ pub fn table(lid: &Lid, step: u16) -> Vec<Vec<f64>> {
     here.chain(opposite).collect()
 }
 
-/// Distribution prepared for sections. Luminances on fine cells are means over them, constant inside; times the cosine
-/// their curves would have a sawtooth shape. They are therefore smoothed by a mean over the width of a cell.
+/// Luminous intensity distribution prepared for section curves. Luminances on fine cells are means over the cell,
+/// constant within it; multiplied by the cosine they would give sawtooth curves. They are therefore smoothed by a
+/// moving mean over the width of a cell.
 struct Cuts {
-    /// Luminances on fine cells.
+    /// Luminances on fine cells, which are smoothed.
     fine: Lid,
     rest: Lid,
-    /// Number of samples of a turn.
+    /// Number of samples of a full turn.
     count: usize,
-    /// Number of samples in half a cell.
+    /// Number of samples in half the width of a cell; 0 if nothing is smoothed.
     half: usize,
 }
 
@@ -129,7 +138,7 @@ impl Cuts {
         Self { fine: part(fine), rest: part(rest), count, half }
     }
 
-    /// Returns every `every`-th sample of a section.
+    /// Returns every `every`-th sample of a section curve, smoothed where the cells are fine. \[cd\]
     fn along(&self, section: LidPlane, every: usize) -> Vec<f64> {
         let aim = Aim::of(self.fine.surface);
         let of = |lid: &Lid, ahead: f64, every: usize| -> Vec<f64> {
@@ -152,20 +161,25 @@ impl Cuts {
 /// \[rad\]
 const FINE: f64 = 4.0 * PI / 180.0;
 
-/// Returns the width of the narrowest ring of cells; infinite for luminances without cells. \[rad\]
+/// Returns the width in θ of the narrowest ring of cells of a part of the luminance; infinite for luminances that are
+/// not given on cells. \[rad\]
 fn cell_width(part: &EmergentLuminance) -> f64 {
     let EmergentLuminance::Cells { basis, .. } = part else { return f64::INFINITY };
     basis.cells().map(|cell| cell.theta_max - cell.theta_min).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns means over `half` samples before and after every `every`-th place; samples lie half a step after the places.
+/// Returns the means over `half` values before and after every `every`-th position of a closed curve; the values lie
+/// half a step after the positions.
 fn moving_mean(values: &[f64], half: usize, every: usize) -> Vec<f64> {
     let n = values.len();
     let around = |k: usize| (0..2 * half).map(move |j| (k + n * half + j - half) % n);
     (0..n).step_by(every).map(|k| around(k).map(|at| values[at]).sum::<f64>() / (2 * half) as f64).collect()
 }
 
-/// Returns the intensity of an ideal diffuser of the same flux: Φ/π · cosθ about the aperture's normal. \[cd\]
+/// Returns the luminous intensity that an ideal (Lambertian) diffuser of the same flux has in an emergent direction:
+/// Φ/π · cos θ, with θ from the aperture's normal into the room. \[cd\]
+///
+/// `flux`: luminous flux Φ. \[lm\]
 pub fn diffuser(flux: f64, d: Emergent) -> f64 {
     flux / PI * (-d.0.vector().z).max(0.0)
 }

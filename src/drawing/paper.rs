@@ -1,4 +1,4 @@
-//! Drawing: shapes on paper, and its output as files.
+//! Drawing: shapes on a sheet of paper, and its output as SVG, PNG and pixels.
 
 use super::font;
 use super::raster::Raster;
@@ -6,34 +6,36 @@ use super::shape::{Frame, Shape, moved};
 use super::svg;
 use crate::texts::{character_names, export as texts};
 
-/// Shapes on white paper, later ones on top.
+/// Drawing: shapes on white paper, later ones on top of earlier ones. Positions are in drawing units, x to the right
+/// and y down from the upper left corner of the paper.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
-    /// Width of the paper.
+    /// Width of the paper. \[drawing units\]
     pub width: f64,
-    /// Height of the paper.
+    /// Height of the paper. \[drawing units\]
     pub height: f64,
-    /// Shapes of the drawing.
+    /// Shapes of the drawing, the lowest first.
     pub shapes: Vec<Shape>,
 }
 
 impl Drawing {
-    /// Creates empty paper.
+    /// Creates empty paper of the given width and height. \[drawing units\]
     pub const fn new(width: f64, height: f64) -> Self {
         Self { width, height, shapes: Vec::new() }
     }
 
-    /// Returns the frame of the whole paper.
+    /// Returns the rectangle of the whole paper. \[drawing units\]
     pub const fn frame(&self) -> Frame {
         Frame::new(0.0, 0.0, self.width, self.height)
     }
 
-    /// Adds a shape on top.
+    /// Adds a shape on top of all others.
     pub fn add(&mut self, shape: Shape) {
         self.shapes.push(shape);
     }
 
-    /// Places another drawing as large as fits into a frame, in its middle.
+    /// Adds the shapes of another drawing, scaled to the largest size that fits into a frame of this one and centred in
+    /// it.
     pub fn place(&mut self, other: &Self, frame: Frame) {
         let scale = (frame.width / other.width).min(frame.height / other.height);
         let [x, y] = frame.centre();
@@ -46,12 +48,12 @@ impl Drawing {
         self.svg((1.0, "px"))
     }
 
-    /// Returns the drawing as SVG text; `unit`: size of a unit, in `px` or `mm`.
+    /// Returns the drawing as SVG text. `unit`: size of a drawing unit in the file, as a number of `px` or `mm`.
     pub fn svg(&self, unit: (f64, &str)) -> String {
         svg::write(&self.shapes, [self.width, self.height], unit)
     }
 
-    /// Returns the drawing as PNG bytes, one pixel per unit; everything is anti-aliased.
+    /// Returns the drawing as bytes of a PNG file, one pixel per drawing unit, anti-aliased.
     ///
     /// # Errors
     /// Returns an error if there are more pixels than a PNG can have.
@@ -59,8 +61,8 @@ impl Drawing {
         self.png(1.0, None)
     }
 
-    /// Returns the drawing as PNG bytes with `scale` pixels per unit. `per_metre`: pixels per metre of paper, which the
-    /// file then states, where the picture has a size on paper.
+    /// Returns the drawing as bytes of a PNG file with `scale` pixels per drawing unit. `per_metre`: resolution that
+    /// the file states, in pixels per metre of paper; `None` if the picture has no size on paper.
     ///
     /// # Errors
     /// Returns an error if there are more pixels than a PNG can have.
@@ -68,7 +70,8 @@ impl Drawing {
         self.raster(scale).to_png(per_metre)
     }
 
-    /// Returns width, height and the pixels, row by row from above.
+    /// Renders the drawing with `scale` pixels per drawing unit: returns width and height in pixels, and red, green and
+    /// blue of each pixel, row by row from the top.
     pub fn to_pixels(&self, scale: f64) -> (usize, usize, Vec<u8>) {
         let raster = self.raster(scale);
         (raster.width, raster.height, raster.pixels)
@@ -84,8 +87,8 @@ impl Drawing {
     }
 }
 
-/// Returns a message that names the characters of drawings that the font does not have: PNG and PDF have a box for
-/// each.
+/// Returns a message that names the characters of all drawings that the font does not have (PNG and PDF show a box for
+/// each); `None` if it has all.
 pub fn missing_characters(drawings: &[Drawing]) -> Option<String> {
     let (mut missing, mut first) = (Vec::new(), None);
     for shape in drawings.iter().flat_map(|drawing| &drawing.shapes) {

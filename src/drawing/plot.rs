@@ -1,55 +1,55 @@
-//! Content of a plot, as data only: axes with units, series of points, lines to compare them with.
+//! Content of a plot, independent of how it is drawn: axes with units, series of points, and lines for comparison.
 //!
-//! The window draws it by egui_plot (`app::paint::plot`), files by [`chart`](super::chart): both use the same numbers.
-//! Both work in an axis' *coordinate*, the value itself or, on a logarithmic axis, its decimal logarithm.
+//! The window draws it by egui_plot (`app::paint::plot`), files by [`chart`](super::chart), from the same numbers. Both
+//! measure along an axis by its *coordinate*: the value itself or, on a logarithmic axis, its decimal logarithm.
 
 use super::ticks;
 use crate::texts::{tiles as say, words::MONTHS};
 
-/// Unit of an axis.
+/// Unit of the quantity on an axis, which determines ticks and labels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// Unit written behind the axis' name; empty for plain numbers.
+    /// Unit written after the name of the axis; empty for plain numbers.
     Named(&'static str),
-    /// Degrees, with ticks at usual angles.
+    /// Degrees, with ticks at customary angles (multiples of 5, 15, 30, 45 or 90).
     Degrees,
-    /// Hours of a day.
+    /// Hours of a day, 0 … 24.
     Hours,
-    /// Days of a year of 365, from 0; ticks at the months.
+    /// Days of a year of 365 days, counted from 0, with ticks at the first days of months.
     Days,
-    /// Seconds, each tick in the multiple that suits it.
+    /// Seconds; the label of each tick has the suitable multiple (s, ms, µs, ns).
     Seconds,
-    /// Shares of one, as per cent.
+    /// Fractions of one, labelled in per cent.
     Share,
 }
 
-/// Axis of a plot.
+/// Axis of a plot. Its coordinate is the value itself or, if it is logarithmic, the decimal logarithm of the value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
-    /// Name of the quantity.
+    /// Name of the quantity on the axis, without unit.
     pub name: String,
-    /// Unit of the quantity.
+    /// Unit of the values.
     pub unit: Unit,
     /// Whether the axis is logarithmic.
     pub log: bool,
-    /// First and last value of the initial view; positive when `log`.
+    /// First and last value of the initial view, in the unit of the axis; positive when `log`.
     pub range: [f64; 2],
 }
 
 impl Axis {
-    /// Creates a linear axis.
+    /// Creates a linear axis from the lower to the upper of two values.
     pub fn linear([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
         Self { name: name.into(), unit, log: false, range: [lo, if hi > lo { hi } else { lo + 1.0 }] }
     }
 
-    /// Creates a logarithmic axis.
+    /// Creates a logarithmic axis from the lower to the upper of two positive values.
     pub fn log([lo, hi]: [f64; 2], name: impl Into<String>, unit: Unit) -> Self {
         let lo = if lo > 0.0 { lo } else { 1e-6 };
         Self { name: name.into(), unit, log: true, range: [lo, if hi > lo { hi } else { 10.0 * lo }] }
     }
 
-    /// Creates a logarithmic axis over the powers of ten that enclose the finite numbers above 0; at most `most`
-    /// decades, the upper ones.
+    /// Creates a logarithmic axis over the powers of ten that enclose all finite values above 0. `most`: maximum number
+    /// of decades; beyond it the lower ones are left out.
     pub fn decades(values: impl IntoIterator<Item = f64>, most: i32, name: &str, unit: Unit) -> Self {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for value in values {
@@ -65,15 +65,16 @@ impl Axis {
         Self::log([first.max(last - most.max(1)), last].map(|power| 10_f64.powi(power)), name, unit)
     }
 
-    /// Returns name and unit; units that stand at the ticks are not repeated.
+    /// Returns the title of the axis, "name / unit"; units that stand at the ticks are not repeated.
     pub fn title(&self) -> String {
         format!("{}{}", self.name, self.unit_part())
     }
 
-    /// Returns the unit alone, where there is no room for the name.
+    /// Returns the unit alone, as title of an axis without space for its name.
     pub fn short_title(&self) -> String {
         self.unit_part().trim_start_matches(" / ").to_owned()
     }
+/// Returns the unit as it follows the name in a title: " / unit", or nothing where it stands at the ticks.
 
     fn unit_part(&self) -> String {
         match self.unit {
@@ -84,8 +85,8 @@ impl Axis {
         }
     }
 
-    /// Returns the coordinate of a value, `None` if it is not a number. A value without a logarithm lies at the end of
-    /// the range.
+    /// Returns the coordinate of a value along the axis (the value, or its decimal logarithm); `None` if it is not a
+    /// number. A value without a logarithm lies at the lower end of the range.
     pub fn coordinate(&self, value: f64) -> Option<f64> {
         let [lo, hi] = self.range;
         match (self.log, value) {
@@ -96,17 +97,19 @@ impl Axis {
         }
     }
 
-    /// Returns the value at a coordinate.
+    /// Returns the value at a coordinate of the axis: the inverse of [`Axis::coordinate`].
     pub fn value(&self, coordinate: f64) -> f64 {
         if self.log { 10_f64.powf(coordinate) } else { coordinate }
     }
 
-    /// Returns the coordinates of the range.
+    /// Returns the coordinates of the two ends of the axis' range: the values, or on a logarithmic axis their decimal
+    /// logarithms.
     pub fn ends(&self) -> [f64; 2] {
         self.range.map(|end| if self.log { end.log10() } else { end })
     }
 
-    /// Returns the coordinates of round values between two others, about `count` and rising.
+    /// Returns ticks for the part of the axis between the coordinates `from` and `to`: coordinates of about `count`
+    /// round values, rising.
     pub fn marks(&self, [from, to]: [f64; 2], count: usize) -> Vec<f64> {
         let [lo, hi] = [from, to].map(|end| self.value(end));
         if self.log {
@@ -133,14 +136,15 @@ impl Axis {
         }
     }
 
-    /// Returns the text of a tick whose neighbour is `step` away, both coordinates.
+    /// Returns the label of a tick at `coordinate`, with as many digits as distinguish it from a neighbour that is
+    /// `step` away. Both are coordinates of the axis: values, or decimal logarithms.
     pub fn tick(&self, coordinate: f64, step: f64) -> String {
         let value = self.value(coordinate);
         let step = if self.log { self.value(coordinate + step) - value } else { step };
         self.words(value, |number| ticks::fine_tick(number, step * (number / value)))
     }
 
-    /// Returns a value with its unit.
+    /// Returns a value as text with its unit, to three significant digits.
     pub fn text(&self, value: f64) -> String {
         match self.unit {
             Unit::Named(unit) => ticks::si(value, unit).trim_end().to_owned(),
@@ -149,7 +153,7 @@ impl Axis {
         }
     }
 
-    /// Returns a number, with the unit where it belongs to the tick.
+    /// Returns a number as text, with the unit where it belongs to the tick. `number`: formats the scaled value.
     fn words(&self, value: f64, number: impl Fn(f64) -> String) -> String {
         // Powers of ten must not fall short of their unit by rounding.
         let reaches = |least: f64| value.abs() >= least * (1.0 - 1e-9);
@@ -173,81 +177,83 @@ impl Axis {
     }
 }
 
-/// First days of the months, from 0.
+/// First days of the months of a common year, counted from 0.
 const FIRST: [f64; 12] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0];
 
-/// Returns a day of the year in words: the month alone on its first day.
+/// Returns a day of a common year (counted from 0) in words: the month alone on its first day, else day and month.
 fn date(day: f64) -> String {
     let Some(month) = FIRST.iter().rposition(|first| *first <= day && day < 365.0) else { return String::new() };
     let past = (day - FIRST[month]).floor();
     if past > 0.0 { say::day_month(past + 1.0, MONTHS[month]) } else { MONTHS[month].into() }
 }
 
-/// Form in which the points of a series are drawn.
+/// Style in which the points of a series are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
-    /// Line through the points.
+    /// Line through the points, without marks.
     Line,
-    /// Line with a mark at each point.
+    /// Line through the points, with a mark at each.
     Marked,
-    /// Dot at each point.
+    /// Dot at each point, without a line.
     Dots,
 }
 
-/// Series of points that belong together.
+/// Series of a plot: points under one name in the legend.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     /// Name in the legend.
     pub name: String,
-    /// Values on x and y; a value that is not a number divides the line.
+    /// Points as values on the x and y axes, in the axes' units; a value that is not a number interrupts the line.
     pub points: Vec<[f64; 2]>,
-    /// Lowest and highest y at each point; empty: no band.
+    /// Band around the line: lowest and highest y value at each point; empty if there is no band.
     pub band: Vec<[f64; 2]>,
-    /// Form of the points.
+    /// Style in which the points are drawn.
     pub form: Form,
 }
 
 impl Series {
-    /// Creates a line without a band.
+    /// Creates a series that is drawn as a line without marks and without a band, from its points (values on x and y).
     pub fn line(name: impl Into<String>, points: impl IntoIterator<Item = [f64; 2]>) -> Self {
         Self { name: name.into(), points: points.into_iter().collect(), band: Vec::new(), form: Form::Line }
     }
 }
 
-/// Line for comparison, as a limit or the present value.
+/// Straight line for comparison, such as a limit or the present value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide {
     /// Name written at the line's end; may be empty.
     pub name: String,
-    /// Values of the two ends on x and y.
+    /// Ends of the line, each as values on the x and y axes.
     pub ends: [[f64; 2]; 2],
 }
 
-/// Plot with axes, series and guides.
+/// Plot: two axes, the series of points, and lines for comparison.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plot {
-    /// Axis to the right.
+    /// Horizontal axis, to the right.
     pub x: Axis,
-    /// Axis upwards.
+    /// Vertical axis, upwards.
     pub y: Axis,
-    /// Series, the most important first.
+    /// Series, the most important first; their order determines colours and legend.
     pub series: Vec<Series>,
-    /// Guides, drawn behind the series.
+    /// Lines for comparison, drawn behind the series.
     pub guides: Vec<Guide>,
 }
 
 impl Plot {
-    /// Returns the coordinates of a point.
+    /// Returns the axis coordinates of a point given by its values on x and y (on a logarithmic axis the decimal
+    /// logarithm); `None` if one is not a number.
     pub fn place(&self, [x, y]: [f64; 2]) -> Option<[f64; 2]> {
         Some([self.x.coordinate(x)?, self.y.coordinate(y)?])
     }
 
-    /// Returns the lines of a series in coordinates, divided where a value is missing.
+    /// Returns the line of a series in axis coordinates, as pieces that are interrupted where a value is missing.
     pub fn runs(&self, series: &Series) -> Vec<Vec<[f64; 2]>> {
         parted(series.points.iter().map(|point| self.place(*point)))
     }
 
-    /// Returns the bands of a series in coordinates, divided where a value is missing: x, lowest and highest y.
+    /// Returns the band of a series in axis coordinates, as pieces that are interrupted where a value is missing; each
+    /// point is x, lowest y and highest y.
     pub fn bands(&self, series: &Series) -> Vec<Vec<[f64; 3]>> {
         parted(series.points.iter().zip(&series.band).map(|([x, _], [low, high])| {
             Some([self.x.coordinate(*x)?, self.y.coordinate(*low)?, self.y.coordinate(*high)?])
@@ -255,6 +261,7 @@ impl Plot {
     }
 }
 
+/// Splits a sequence into its longest runs without a missing item.
 fn parted<T>(items: impl Iterator<Item = Option<T>>) -> Vec<Vec<T>> {
     let mut runs = vec![Vec::new()];
     for item in items {

@@ -1,4 +1,5 @@
-//! Output of a drawing as pixels: areas by the share of every pixel that they cover, lines by their distance.
+//! Rendering of a drawing to pixels, anti-aliased: areas by the share of every pixel that they cover, lines by the
+//! pixel's distance from them.
 
 use super::font::{MIDDLE, outlines, width};
 use super::shape::{Point, Rgb, Shape};
@@ -8,7 +9,7 @@ pub(super) struct Raster {
     pub(super) width: usize,
     pub(super) height: usize,
     pub(super) pixels: Vec<u8>,
-    /// Greatest coverage of each pixel by the line that is being drawn: joints are not inked twice.
+    /// Largest coverage of each pixel by the line that is being drawn, so that joints are not inked twice.
     cover: Vec<f32>,
 }
 
@@ -17,7 +18,8 @@ impl Raster {
         Self { width, height, pixels: vec![255; 3 * width * height], cover: vec![0.0; width * height] }
     }
 
-    /// Returns PNG bytes. `per_metre`: pixels per metre of paper, where the picture has a size on paper.
+    /// Returns the bytes of a PNG file. `per_metre`: resolution that the file states, in pixels per metre of paper;
+    /// `None` if the picture has no size on paper.
     pub(super) fn to_png(&self, per_metre: Option<f64>) -> Result<Vec<u8>, EncodingError> {
         // More than a PNG can have fails in the encoder, which checks the bytes against the size.
         let [width, height] = [self.width, self.height].map(|size| u32::try_from(size).unwrap_or(u32::MAX));
@@ -33,7 +35,7 @@ impl Raster {
         Ok(bytes)
     }
 
-    /// Draws a shape in pixels.
+    /// Draws a shape whose positions and lengths are in pixels.
     pub(super) fn draw(&mut self, shape: &Shape) {
         match shape {
             Shape::Line { points, colour, width, dash: None } => self.line(points, *colour, *width),
@@ -73,7 +75,8 @@ impl Raster {
         }
     }
 
-    /// Draws a line with the coverage of a pixel by its distance to the line: one pixel of transition.
+    /// Draws a line of a given width \[pixels\]; the coverage of a pixel falls from 1 to 0 over one pixel of distance
+    /// at the line's edges.
     fn line(&mut self, points: &[Point], colour: Rgb, width: f64) {
         // What is thinner than a pixel is drawn as wide as one, and paler.
         let (width, ink) = if width < 1.0 { (1.0, width) } else { (width, 1.0) };
@@ -158,7 +161,8 @@ impl Raster {
     }
 }
 
-/// Adds one edge: its signed coverage of pixels in each row, as differences along the row.
+/// Adds one edge of a contour to `sums`: its signed coverage of the pixels in each row, stored as differences along the
+/// row.
 fn edge(sums: &mut [f64], columns: usize, rows: usize, [a, b]: [Point; 2]) {
     if a[1] == b[1] || !(a[1] - b[1]).is_finite() {
         return;
@@ -207,7 +211,7 @@ fn edge(sums: &mut [f64], columns: usize, rows: usize, [a, b]: [Point; 2]) {
     }
 }
 
-/// Returns the strokes of a dashed line.
+/// Returns the strokes of a dashed line. `on`, `off`: lengths of stroke and gap. \[pixels\]
 fn strokes(points: &[Point], [on, off]: [f64; 2]) -> Vec<Vec<Point>> {
     if !(on > 0.0 && off > 0.0) {
         return vec![points.to_vec()];

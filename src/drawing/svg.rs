@@ -1,10 +1,10 @@
-//! Output of a drawing as SVG text, with vectors and text preserved.
+//! Output of a drawing as SVG, with lines and areas as vectors and text as text.
 
 use super::font::MIDDLE;
 use super::shape::{Align, Point, Rgb, Shape};
 use std::fmt::Write as _;
 
-/// Font, and its substitutes where it is not installed.
+/// Font family of the SVG text: DejaVu Sans, and substitutes where it is not installed.
 const FAMILY: &str = "'DejaVu Sans', Verdana, sans-serif";
 
 fn path(points: &[Point]) -> String {
@@ -15,7 +15,7 @@ fn hex([r, g, b]: Rgb) -> String {
     format!("#{r:02x}{g:02x}{b:02x}")
 }
 
-/// Returns text with the reserved characters of XML escaped, and those that it refuses replaced by spaces.
+/// Returns text with the reserved characters of XML escaped, and control characters replaced by spaces.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -30,12 +30,14 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// Returns a length without needless zeros.
+/// Returns a length as text with up to three decimals, without trailing zeros.
 fn length(value: f64) -> String {
     let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// Returns the SVG document of shapes on white paper. `[w, h]`: size of the paper in drawing units. `scale`, `unit`:
+/// size of a drawing unit, such as 0.25 mm.
 pub(super) fn write(shapes: &[Shape], [w, h]: [f64; 2], (scale, unit): (f64, &str)) -> String {
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}{unit}\" height=\"{}{unit}\" \

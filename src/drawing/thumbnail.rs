@@ -1,20 +1,22 @@
-//! Small picture of the transmitted sunlight of a product, for lists and galleries.
+//! Small picture of the light that a product transmits for one incident direction, for lists and galleries.
 
 use super::colours::{ColourMap, ColourScale};
 use super::hemisphere::{Projection, Side, emergent_disk};
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::{Emergent, Incident};
 
-/// Side of the picture. \[pixels\]
+/// Width and height of the picture. \[pixels\]
 pub const SIDE: usize = 72;
-/// Number of decades of the logarithmic colour scale below the greatest value.
+/// Number of decades that the logarithmic colour scale reaches below the largest value.
 const DECADES: i32 = 3;
-/// Radius of the dot for regular transmission, relative to the disk's.
+/// Radius of the dot that marks regular transmission, as a fraction of the disk's radius.
 const DOT: f64 = 0.1;
 
-/// Returns the indicatrix of one incident direction as the emergent hemisphere seen from inside, up is up: red, green,
-/// blue and opacity of [`SIDE`]² pixels, row by row from the top. Every picture has its own scale, up to its greatest
-/// value.
+/// Returns a picture of the luminance coefficients of the light that a system transmits from one incident direction:
+/// the hemisphere of emergent directions as a disk seen from inside the room, up is up, regular transmission as a white
+/// dot. Red, green, blue and opacity of [`SIDE`]² pixels, row by row from the top.
+///
+/// Every picture has a colour scale of its own: logarithmic, three decades up to its largest value.
 pub fn indicatrix(btdf: &Btdf, incident: Incident) -> Vec<[u8; 4]> {
     const PROJECTION: Projection = Projection::ProjectedSolidAngle;
     let scattered = btdf.indicatrix(incident);

@@ -1,8 +1,9 @@
-//! Round numbers for axes, and numbers as text with their unit.
+//! Round numbers for axes and scales, and numbers as text with their unit.
 
 use crate::texts;
 
-/// Returns the next of 1, 2, 5 · 10ⁿ that is at least `value`; 1 for a value that is not positive and finite.
+/// Returns the smallest number of the series 1, 2, 5 · 10ⁿ that is at least `value`; 1 for a value that is not positive
+/// and finite.
 pub fn nice_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
@@ -13,7 +14,7 @@ pub fn nice_ceil(value: f64) -> f64 {
     rounded * decade
 }
 
-/// Returns round values within lo … hi, at most `count` + 1 of them.
+/// Returns equally spaced round values between `lo` and `hi`, at most `count` + 1 of them.
 pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     if !(hi > lo && (hi - lo).is_finite()) || count == 0 {
         return vec![];
@@ -21,15 +22,15 @@ pub fn linear(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     multiples(lo, hi, nice_ceil((hi - lo) / count as f64))
 }
 
-/// Returns the multiples of a step within lo … hi.
+/// Returns the multiples of `step` between `lo` and `hi`, both included.
 pub fn multiples(lo: f64, hi: f64, step: f64) -> Vec<f64> {
     let first = (lo / step - 1e-9).ceil() as i64;
     let last = (hi / step + 1e-9).floor() as i64;
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// Returns the next number like [`nice_ceil`] in finer steps (1, 1.5, 2, 2.5, 3, 4, 5, 6, 8), so that a scale is well
-/// filled.
+/// Returns the smallest number of the series 1, 1.5, 2, 2.5, 3, 4, 5, 6, 8 · 10ⁿ that is at least `value`: end of a
+/// linear scale that is well filled. 1 for a value that is not positive and finite.
 pub fn fine_ceil(value: f64) -> f64 {
     if !(value.is_finite() && value > 0.0) {
         return 1.0;
@@ -41,8 +42,9 @@ pub fn fine_ceil(value: f64) -> f64 {
     scaled(steps.into_iter().find(|m| value <= scaled(*m) * (1.0 + 1e-9)).unwrap_or(10.0))
 }
 
-/// Returns the marks of a logarithmic axis within lo … hi, about `count`: 1-2-5 steps where they fit, else decades,
-/// else every second decade and so on; where there is less than two decades the 1-2-5 steps are thinned instead.
+/// Returns about `count` round values for a logarithmic axis between `lo` and `hi`: 1-2-5 steps where they are few
+/// enough, else decades, else every second decade and so on; where there are less than two decades the 1-2-5 steps are
+/// thinned instead.
 pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     if !(lo > 0.0 && hi > lo && hi.is_finite()) || count == 0 {
         return vec![];
@@ -58,7 +60,8 @@ pub fn logarithmic(lo: f64, hi: f64, count: usize) -> Vec<f64> {
     chosen.into_iter().step_by(stride).collect()
 }
 
-/// Returns a number with nine significant digits and no trailing zeros.
+/// Returns a number as text with nine significant digits, without trailing zeros, with a decimal point in every
+/// language.
 pub fn nine_digits(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}").replace("-0", "0");
@@ -72,7 +75,8 @@ pub fn nine_digits(value: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// Returns a number to `digits` significant digits, without needless zeros: "0.0123", "412", "12 300".
+/// Returns a number as text with `digits` significant digits, without needless zeros, with the decimal sign of the
+/// language: "0.0123", "412", "12 300".
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -100,7 +104,7 @@ impl RoundIf for f64 {
     }
 }
 
-/// Separates groups of three by thin spaces in whole parts of five digits and more.
+/// Groups digits by threes with thin spaces, in whole parts of five digits and more, and sets minus and decimal sign.
 fn group(text: &str) -> String {
     let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("−", rest));
     let (whole, fraction) = rest.split_once('.').map_or((rest, ""), |(a, b)| (a, b));
@@ -118,7 +122,8 @@ fn group(text: &str) -> String {
     out
 }
 
-/// Returns a quantity with its unit, kilo and mega from ten thousand up: "12.3 klx", "850 lx".
+/// Returns a value with its unit to three significant digits, with the prefixes kilo and mega from ten thousand up:
+/// "12.3 klx", "850 lx".
 pub fn si(value: f64, unit: &str) -> String {
     let size = value.abs();
     if size >= 1e7 {
@@ -130,12 +135,13 @@ pub fn si(value: f64, unit: &str) -> String {
     }
 }
 
-/// Returns a tick's text: few digits, no trailing zeros, thousands as "k".
+/// Returns the label of a tick: few digits, no trailing zeros, "k" and "M" for thousands and millions.
 pub fn tick(value: f64) -> String {
     fine_tick(value, value)
 }
 
-/// Returns a tick's text with the digits that distinguish it from its neighbour, a step further.
+/// Returns the label of a tick, with enough digits to distinguish it from a neighbour that is `step` away; "k" and "M"
+/// for thousands and millions.
 pub fn fine_tick(value: f64, step: f64) -> String {
     let size = value.abs();
     let (scale, unit, least) = match size {
@@ -150,7 +156,7 @@ pub fn fine_tick(value: f64, step: f64) -> String {
     format!("{}{unit}", if plain { text.trim_end_matches('0').trim_end_matches(sign) } else { &text })
 }
 
-/// Returns an angle in radians as whole degrees: "40°".
+/// Returns an angle, given in radians, as text in whole degrees: "40°".
 pub fn degrees(radians: f64) -> String {
     format!("{:.0}°", radians.to_degrees() + 0.0)
 }

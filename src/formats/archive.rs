@@ -1,4 +1,4 @@
-//! Zip archives of data files: their files by name, within limits that hold for every archive.
+//! Zip archives of data files: access to their files by name, within limits that apply to every archive.
 
 use super::encoding::{NotText, is_web_page};
 use crate::compute::limits;
@@ -8,30 +8,30 @@ use zip::ZipArchive;
 
 /// Maximum number of entries of an archive.
 pub const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
-/// Maximum size of a file in an archive. \[bytes\]
+/// Maximum uncompressed size of a file in an archive. \[bytes\]
 pub const MOST_FILE: u64 = limits::ENTRY_BYTES;
 
-/// Error of reading an archive, or a file in it.
+/// Error in reading a zip archive, or a file in it.
 #[derive(Debug, thiserror::Error)]
 pub enum ArchiveError {
-    /// Web page that was saved in place of the archive.
+    /// Web page that was saved instead of the archive that it offers.
     #[error(transparent)]
     WebPage(#[from] NotText),
     /// Bytes that are not a zip file, or are damaged.
     #[error("not a readable zip archive: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// Archive with more files than any collection of data.
+    /// Archive with more files than allowed: their number.
     #[error("{0} entries; expected at most {MOST_ENTRIES}")]
     Entries(usize),
-    /// File larger than allowed.
+    /// File in the archive that is larger than allowed: the maximum size. \[MB\]
     #[error("larger than {0} MB when unpacked")]
     Large(u64),
-    /// File that is damaged inside the archive.
+    /// File in the archive that is damaged and cannot be decompressed.
     #[error("cannot be unpacked: {0}")]
     Unpack(std::io::Error),
 }
 
-/// Whether the bytes are a zip archive. Packages are too; see [`holds_package`].
+/// Whether the bytes are a zip archive; exchange packages are zip archives, too, see [`holds_package`].
 pub fn looks_like_archive(bytes: &[u8]) -> bool {
     super::package::looks_like_package(bytes)
 }
@@ -39,19 +39,20 @@ pub fn looks_like_archive(bytes: &[u8]) -> bool {
 /// File in an archive.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Entry {
-    /// Index in the archive, by which it is read.
+    /// Index of the file in the archive, for [`read`].
     pub index: usize,
-    /// Name with its folders, divided by `/`; unchanged as stored where another file differs from it in `\\` alone.
+    /// Name of the file with its folders, separated by `/`; as stored if another file's name differs from it only by
+    /// `\\` instead of `/`.
     pub name: String,
 }
 
-/// Files in an archive.
+/// Content of a zip archive: its files, and names that occur several times.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Contents {
-    /// Files that can be read, by name.
+    /// Files that can be read, in the order of their names.
     pub files: Vec<Entry>,
-    /// Names that several files share, so that none can be distinguished from the others: without
-    /// [`with_distinct_names`].
+    /// Names that several files of the archive have in common, so that only the last of them can be read;
+    /// [`with_distinct_names`] makes them distinct first.
     pub clashes: Vec<String>,
 }
 
@@ -63,7 +64,7 @@ fn opened(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, ArchiveError> {
     if zip.len() > MOST_ENTRIES { Err(ArchiveError::Entries(zip.len())) } else { Ok(zip) }
 }
 
-/// Lists the files in an archive; entries that operating systems add for themselves are left out.
+/// Lists the files in an archive, without entries that operating systems add (e.g. `__MACOSX`).
 ///
 /// # Errors
 /// Returns an error if the bytes are not a zip archive, or have too many entries.
@@ -97,18 +98,18 @@ pub fn contents(bytes: &[u8]) -> Result<Contents, ArchiveError> {
     Ok(contents)
 }
 
-/// Returns a name with its folders divided by `/` alone.
+/// Returns a file's name with its folders separated by `/` alone.
 fn with_slashes(name: &str) -> String {
     name.replace('\\', "/")
 }
 
-/// Size of a header in the list at the end of an archive, before its name: APPNOTE 4.3.12. \[bytes\]
+/// Size of a file's header in the central directory of a zip archive, before its name: APPNOTE 4.3.12. \[bytes\]
 const HEADER: usize = 46;
 
-/// Header in the list at the end of an archive, with the name in it.
+/// Header of a file in the central directory of a zip archive, and the name that it contains.
 type Listed<'a> = (&'a [u8], &'a [u8]);
 
-/// Returns the list at the end of an archive, and what follows it.
+/// Returns the headers of the central directory at the end of an archive, and the bytes that follow it.
 fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<Listed<'a>>, &'a [u8]) {
     let mut list = Vec::new();
     let mut rest =
@@ -123,8 +124,8 @@ fn listed<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> (Vec<Listed<'
     (list, rest)
 }
 
-/// Returns the names that occur several times in the list at the end of an archive; the reader knows only the last file
-/// of each.
+/// Returns the names that occur several times in the central directory of an archive; the zip reader finds only the
+/// last file of each.
 fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a [u8]> {
     if !zip.has_duplicate_names() {
         return HashSet::new();
@@ -133,9 +134,8 @@ fn repeated<'a>(bytes: &'a [u8], zip: &ZipArchive<Cursor<&[u8]>>) -> HashSet<&'a
     listed(bytes, zip).0.into_iter().map(|(_, name)| name).filter(|name| !seen.insert(*name)).collect()
 }
 
-/// Numbers the files of an archive that have the name of one before them, as in `x (2).xml`: the reader knows one file
-/// of each name. Where the list of files is in the form of archives above 4 GB, it stays as it is, see
-/// [`Contents::clashes`].
+/// Returns the archive with a number added to each file that has the name of an earlier one, as in `x (2).xml`, so that
+/// all can be read. Archives in the format for more than 4 GB are returned unchanged, see [`Contents::clashes`].
 pub fn with_distinct_names(mut bytes: Vec<u8>) -> Vec<u8> {
     if let Some((start, end)) =
         opened(&bytes).ok().filter(ZipArchive::has_duplicate_names).and_then(|zip| renamed(&bytes, &zip))
@@ -146,7 +146,8 @@ pub fn with_distinct_names(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Returns where the list at the end of an archive begins, the list without repeated names, and what follows it.
+/// Returns the offset of an archive's central directory, and the bytes from there on with repeated names numbered;
+/// `None` for archives in the format for more than 4 GB.
 fn renamed(bytes: &[u8], zip: &ZipArchive<Cursor<&[u8]>>) -> Option<(usize, Vec<u8>)> {
     let start = usize::try_from(zip.central_directory_start()).ok()?;
     let (list, rest) = listed(bytes, zip);
@@ -190,15 +191,16 @@ fn numbered(name: &[u8], number: usize) -> Vec<u8> {
     [&name[..stem], format!(" ({number})").as_bytes(), &name[stem..]].concat()
 }
 
-/// Whether the files are those of an exchange package.
+/// Whether the files of an archive are those of an exchange package.
 pub fn holds_package(files: &[Entry]) -> bool {
     files.iter().any(|file| file.name == "manifest.json")
 }
 
-/// Returns the bytes of the file at `index`; never more than `most`, whatever the archive's headers say.
+/// Returns the uncompressed bytes of the file at `index` of an archive; never more than `most`, whatever the archive's
+/// headers state.
 ///
 /// # Errors
-/// Returns an error if there is no such file, or it is damaged or larger.
+/// Returns an error if there is no such file, or if it is damaged or larger than `most`.
 pub fn read(bytes: &[u8], index: usize, most: u64) -> Result<Vec<u8>, ArchiveError> {
     let mut zip = opened(bytes)?;
     let most = most.min(MOST_FILE);

@@ -1,29 +1,30 @@
-//! Descriptions in data files, from which sharp beams are computed again.
+//! System descriptions inside data files, from which sharp beams are computed again when the file is read.
 //!
-//! Cells spread a beam over their width; where the numbers were computed from a description, that gives the beam more
-//! exactly. A file contains for this the version of the addition ("cfs-beams 1"), the text of a system file that names
-//! no other files, the key of the state, and a fingerprint of all of it with the numbers. If the numbers were changed
-//! since, they are no longer those of the description: it is left out then, and a finding reports it.
+//! Patch-averaged data spread a beam over the width of a cell; the description that they were computed from gives the
+//! beam exactly. For this purpose a file contains a version ("cfs-beams 1"), the text of a system file that names no
+//! other files, the key of the state, and a fingerprint of all this with the data. If the data were changed since, they
+//! no longer belong to the description: it is then ignored, and a finding reports it.
 
 use crate::compute::btdf::{DescribedState, Finding};
 use crate::formats::system_toml;
 
-/// Name of the addition.
+/// Name of the extension of data files that holds a description.
 pub(super) const NAME: &str = "cfs-beams";
-/// Version that is written, and the newest that is read.
+/// Version of the extension that is written, and the newest that is read.
 pub(super) const VERSION: u32 = 1;
 
-/// Description in a file, with its state and the fingerprint that was written with them.
+/// System description in a data file, with its state and the fingerprint that was written with them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct StoredDescription {
-    /// Description and state.
+    /// System description and key of the state.
     pub described: DescribedState,
-    /// Fingerprint in the file, hexadecimal.
+    /// Fingerprint that the file states, hexadecimal.
     pub fingerprint: String,
 }
 
 impl StoredDescription {
-    /// Returns the description if it is that of the numbers that the file holds now, else a finding.
+    /// Returns the description if its stored fingerprint equals `fingerprint`, that of the file's present content;
+    /// otherwise a finding that reports the difference.
     pub fn restored(self, fingerprint: &str) -> Result<DescribedState, Finding> {
         let Self { described: DescribedState { text, state }, fingerprint: written } = self;
         if written != fingerprint {
@@ -34,7 +35,7 @@ impl StoredDescription {
     }
 }
 
-/// Returns the finding that the description was left out, for the reason `why`.
+/// Returns the finding that reports that the description was ignored, for the reason `why`.
 pub(super) fn not_restored(why: &str) -> Finding {
     Finding::warning(
         "beams-not-restored",
@@ -42,11 +43,11 @@ pub(super) fn not_restored(why: &str) -> Finding {
     )
 }
 
-/// Hash of numbers and texts that does not depend on blanks, line ends or the notation of a number.
+/// Hash of numbers and texts that does not depend on white space, line ends or the notation of numbers.
 pub(super) struct Fingerprint(blake3::Hasher);
 
 impl Fingerprint {
-    /// Creates a hash of a description and its state, to which more is added.
+    /// Creates the hash of a system description and its state, to which the data are then added.
     pub fn new(described: &DescribedState) -> Self {
         let mut new = Self(blake3::Hasher::new());
         // Line ends differ between machines.
@@ -55,18 +56,18 @@ impl Fingerprint {
         new
     }
 
-    /// Adds a word.
+    /// Adds a word to the hash.
     pub fn word(&mut self, word: &str) {
         self.0.update(word.as_bytes()).update(b"\0");
     }
 
-    /// Adds a number by its value.
+    /// Adds the value of a number to the hash.
     pub fn number(&mut self, number: f64) {
         // Minus zero is zero.
         self.0.update(&(number + 0.0).to_bits().to_le_bytes());
     }
 
-    /// Adds a text: its numbers by their value, all else by its letters.
+    /// Adds a text to the hash: its numbers by their value, all else by its characters.
     pub fn text(&mut self, text: &str) {
         for part in text.split(|c: char| c.is_ascii_whitespace() || c == ',').filter(|part| !part.is_empty()) {
             match part.parse::<f64>() {

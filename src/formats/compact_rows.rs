@@ -1,9 +1,9 @@
-//! Bytes of indicatrices in compact form ([`CompactRows`]).
+//! Binary format of indicatrices compressed by wavelets ([`CompactRows`]).
 //!
-//! The bytes begin with the exponent of the steps; then come a table of chances for each order of wavelets that is
-//! used, and the heads of all rows (τ, step, order, length), compressed together with zstd; then one string of an
-//! arithmetic coder per row. A row is found by its head and read alone. Tables are those of the whole dataset, so that
-//! short rows need not learn them.
+//! The bytes begin with the exponent of the quantisation steps, followed by a table of probabilities for each order of
+//! wavelets that is used and the heads of all rows (τ, step, order, length), compressed together with zstd, and by one
+//! string of an arithmetic coder per row. A row can be found by its head and decoded alone. Tables belong to the whole
+//! dataset, so that short rows need not contain them.
 
 mod model;
 pub mod range_coder;
@@ -14,10 +14,10 @@ use model::{CONTEXTS, Counter, Reader, Writer, visit};
 use rayon::prelude::*;
 use std::io::Read as _;
 
-/// Size of a head: τ, step, order, length of the string. \[bytes\]
+/// Size of the head of a row: τ, step, order, length of the string. \[bytes\]
 const HEAD: usize = 15;
 
-/// Returns the bytes of the rows.
+/// Returns compressed indicatrices as bytes.
 pub fn write(rows: &CompactRows) -> Vec<u8> {
     let all: Vec<(Order, QuantisedRow)> = (0..rows.len()).map(|row| rows.quantised(row)).collect();
     let mut tables: [Option<Vec<u8>>; 3] = [None, None, None];
@@ -66,7 +66,7 @@ pub fn write(rows: &CompactRows) -> Vec<u8> {
     out
 }
 
-/// Opened bytes of compact rows: heads are read, rows are decoded one by one.
+/// Compressed indicatrices in bytes: their heads have been read, rows are decoded one by one.
 #[derive(Debug)]
 pub struct RowFile<'a> {
     decoder: RowDecoder,
@@ -83,10 +83,10 @@ struct Head<'a> {
 }
 
 impl<'a> RowFile<'a> {
-    /// Opens the bytes of `count` rows on the cells of `basis`.
+    /// Reads the heads of `count` compressed indicatrices on the emergent cells of `basis`.
     ///
     /// # Errors
-    /// Returns an error if [`write()`] cannot have written the bytes.
+    /// Returns an error if the bytes are not those of [`write()`].
     pub fn open(basis: RingBasis, count: usize, bytes: &'a [u8]) -> Result<Self, String> {
         let cut_off = || "compact rows cut off".to_owned();
         let (fixed, rest) = bytes.split_first_chunk::<6>().ok_or_else(cut_off)?;
@@ -143,10 +143,10 @@ impl<'a> RowFile<'a> {
         Ok(Self { decoder, tables, heads })
     }
 
-    /// Returns the coefficients of one row.
+    /// Returns the quantised wavelet coefficients of one row, and the order of the wavelets.
     ///
     /// # Errors
-    /// Returns an error if no writer writes such a string.
+    /// Returns an error if the row's bytes are not valid.
     pub fn quantised(&self, row: usize) -> Result<(Order, QuantisedRow), String> {
         let head = &self.heads[row];
         let order = ORDERS[head.order];
@@ -160,7 +160,7 @@ impl<'a> RowFile<'a> {
         Ok((order, QuantisedRow { tau: head.tau, step: head.step, levels }))
     }
 
-    /// Returns one indicatrix. \[1/sr\]
+    /// Returns one indicatrix: q of every emergent cell. \[1/sr\]
     ///
     /// # Errors
     /// Returns an error under the conditions of [`Self::quantised`].
@@ -170,7 +170,7 @@ impl<'a> RowFile<'a> {
         made.ok_or_else(|| format!("compact row {row} holds numbers that no writer writes"))
     }
 
-    /// Returns all rows, still compact.
+    /// Returns all rows, still compressed.
     ///
     /// # Errors
     /// Returns an error under the conditions of [`Self::quantised`].

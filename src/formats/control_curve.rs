@@ -1,23 +1,24 @@
-//! Control curves: CSV with the columns `profile_angle_deg` and `value_deg` (or `value`), profile angles rising.
+//! Control curves of shading devices: CSV with the columns `profile_angle_deg` and `value_deg` (or `value`), profile
+//! angles rising.
 //!
 //! Read: separated by commas, semicolons, tabs or blanks; a header, which may name further columns, or two bare columns
 //! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
 
 use super::encoding::{NotText, TooLong, decode, not_too_long};
 
-/// Maximum number of points of a curve.
+/// Maximum number of points of a control curve.
 const MOST_POINTS: usize = 10_000;
 
-/// Error of reading a control curve.
+/// Error in reading a control curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveError {
     /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Text longer than any control curve.
+    /// Text that is too long for a control curve.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// Header without the two columns.
+    /// Header that lacks the two columns of profile angle and value.
     #[error("line {line}: the header needs the columns profile_angle_deg and value_deg")]
     Header {
         /// Line number, from 1.
@@ -31,7 +32,7 @@ pub enum CurveError {
         /// Text of the field.
         found: String,
     },
-    /// Profile angle that is not above the one before.
+    /// Profile angle that is not above that of the previous line.
     #[error("line {line}: profile angle {found}° does not rise")]
     Order {
         /// Line number, from 1.
@@ -39,7 +40,7 @@ pub enum CurveError {
         /// Profile angle. \[°\]
         found: f64,
     },
-    /// Profile angle out of range.
+    /// Profile angle outside −90° … 90°.
     #[error("line {line}: profile angle {found}° is out of range (allowed: -90 to 90)")]
     Range {
         /// Line number, from 1.
@@ -47,12 +48,13 @@ pub enum CurveError {
         /// Profile angle. \[°\]
         found: f64,
     },
-    /// Number of points that is 0 or too large.
+    /// Number of points that is 0 or exceeds the maximum.
     #[error("{0} points (expected 1 to 10000)")]
     Count(usize),
 }
 
-/// Reads the points (profile angle \[°\], value) of a control curve.
+/// Reads the points of a control curve: (profile angle \[°\], value in the unit of the device's states, \[°\] for
+/// slats).
 pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
     let text = decode(not_too_long(bytes)?)?;
     let mut columns = [0, 1];

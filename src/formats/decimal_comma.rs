@@ -1,12 +1,12 @@
-//! Tables with decimal commas and semicolons between fields, as a spreadsheet opens them by a double click in German.
-//! They are read wherever tables are.
+//! CSV tables with decimal commas and semicolons between fields, the format of German spreadsheets. They are accepted
+//! wherever tables are read.
 
 use std::borrow::Cow;
 
-/// Mark by which spreadsheets recognise UTF-8.
+/// Byte-order mark by which spreadsheets recognise UTF-8.
 const MARK: &str = "\u{feff}";
 
-/// Returns a CSV table with semicolons between its fields and a comma in its numbers, in UTF-8 with its mark.
+/// Returns a CSV table with semicolons between its fields and commas in its numbers, in UTF-8 with a byte-order mark.
 pub fn with_decimal_commas(table: &str) -> Vec<u8> {
     let mut writer = csv::WriterBuilder::new()
         .delimiter(b';')
@@ -25,8 +25,9 @@ pub fn with_decimal_commas(table: &str) -> Vec<u8> {
     writer.into_inner().expect("memory takes all that is written to it")
 }
 
-/// Returns a table with commas between its fields and a point in its numbers, its lines in place: the text itself,
-/// unless its first line has more fields between semicolons. Lines that begin with `#` are comments, and become empty.
+/// Returns a table with commas between its fields and points in its numbers, with unchanged line numbers. A text whose
+/// first line has no more fields between semicolons than between commas is returned unchanged. Lines that begin with
+/// `#` are comments, and become empty.
 pub fn with_decimal_points(table: &str) -> Cow<'_, str> {
     let reader = |delimiter| {
         let mut builder = csv::ReaderBuilder::new();

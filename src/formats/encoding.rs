@@ -1,5 +1,5 @@
 //! Encodings of text files: UTF-8, UTF-16 and Windows-1252 with Latin-1 are read, with any line ends. Anything else,
-//! and a web page saved in place of a file, is refused by name.
+//! and a web page saved instead of a file, is refused with the name of the encoding.
 
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
@@ -13,14 +13,14 @@ pub enum Encoding {
     Utf16,
     /// Text with one byte per character, read as Windows-1252.
     Latin1,
-    /// Bytes that are not text.
+    /// Bytes that are not text in any known encoding.
     Binary,
-    /// HTML in any encoding.
+    /// HTML page in any encoding.
     WebPage,
 }
 
 impl Encoding {
-    /// Returns the name of the encoding.
+    /// Returns the name of the encoding for messages.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Utf16 => "UTF-16",
@@ -31,19 +31,19 @@ impl Encoding {
     }
 }
 
-/// Bytes that are not the text that was expected.
+/// Error for bytes that are not text in the expected encoding: position and actual encoding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 pub struct NotText {
-    /// Offset of the first wrong byte.
+    /// Offset of the first byte that is not valid, from 0.
     pub byte: usize,
-    /// Line of that byte, from 1.
+    /// Line of the first byte that is not valid, from 1.
     pub line: usize,
     /// Encoding that the bytes seem to have.
     pub encoding: Encoding,
 }
 
 impl NotText {
-    /// Error for a web page in place of the file that it shows.
+    /// Error for a web page that was saved instead of the file that it shows.
     pub(super) const WEB_PAGE: Self = Self { byte: 0, line: 1, encoding: Encoding::WebPage };
 }
 
@@ -57,15 +57,15 @@ impl fmt::Display for NotText {
     }
 }
 
-/// Text for messages: the file that is expected in place of a web page, and how to get it.
+/// Text for messages about a web page: the expected file, and how to get it.
 pub(super) const RAW_FILE: &str = "the file that the page shows: download the raw file";
 
-/// Error for a text of more bytes than its kind of file ever has: its lines and words alone would fill memory.
+/// Error for a text file that is too large to be processed: its size. \[bytes\]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("a text of {0} bytes; expected at most {most} MB", most = limits::TEXT_BYTES >> 20)]
 pub struct TooLong(pub usize);
 
-/// Returns the text if it is not longer than such files are.
+/// Returns the text if it is not longer than the maximum for text files.
 ///
 /// # Errors
 /// Returns an error with the length of the text if it is longer.
@@ -80,13 +80,14 @@ pub fn not_too_long<T: AsRef<[u8]> + ?Sized>(text: &T) -> Result<&T, TooLong> {
 const LOOK: usize = 4096;
 
 /// Characters of the bytes 0x80 to 0x9F in Windows-1252, for which Latin-1 has control characters that no text holds.
-/// Source: <https://encoding.spec.whatwg.org/index-windows-1252.txt>, which is also what Latin-1 means there.
+/// Source: <https://encoding.spec.whatwg.org/index-windows-1252.txt>, according to which "Latin-1" means Windows-1252,
+/// too.
 const WINDOWS_1252: [char; 32] = [
     '€', '\u{81}', '‚', 'ƒ', '„', '…', '†', '‡', 'ˆ', '‰', 'Š', '‹', 'Œ', '\u{8d}', 'Ž', '\u{8f}', //
     '\u{90}', '‘', '’', '“', '”', '•', '–', '—', '˜', '™', 'š', '›', 'œ', '\u{9d}', 'ž', 'Ÿ',
 ];
 
-/// Returns the character of a byte in Windows-1252.
+/// Returns the character that a byte means in Windows-1252.
 fn of_byte(byte: u8) -> char {
     match byte {
         0x80..=0x9f => WINDOWS_1252[usize::from(byte - 0x80)],
@@ -117,7 +118,8 @@ pub fn utf8(bytes: &[u8]) -> Result<&str, NotText> {
     }
 }
 
-/// Decodes text in UTF-8, UTF-16 or Windows-1252: without a byte-order mark, its lines ended by `\n` alone.
+/// Decodes text in UTF-8, UTF-16 or Windows-1252; the result has no byte-order mark, and its lines end with `
+/// ` alone.
 ///
 /// # Errors
 /// Returns an error if the bytes are a web page or no text at all.
@@ -133,7 +135,8 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, NotText> {
     Ok(if text.contains('\r') { Cow::Owned(text.replace("\r\n", "\n").replace('\r', "\n")) } else { text })
 }
 
-/// Returns the finding about a dataset file that is expected in UTF-8 and was read as Latin-1.
+/// Returns a finding about a dataset file that should be UTF-8 but was read as Latin-1 (Windows-1252); `None` for
+/// UTF-8.
 pub(super) fn repaired(bytes: &[u8]) -> Option<Finding> {
     let NotText { byte, encoding, .. } = utf8(bytes).err()?;
     (encoding != Encoding::Utf16).then(|| {
@@ -143,7 +146,7 @@ pub(super) fn repaired(bytes: &[u8]) -> Option<Finding> {
     })
 }
 
-/// Whether bytes are an HTML page, which browsers save in place of the file that the page shows.
+/// Whether bytes are an HTML page, which browsers may save instead of the file that the page shows.
 pub fn is_web_page(bytes: &[u8]) -> bool {
     // Where the head ends within a character it is taken for Latin-1, and its mark for letters.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -162,7 +165,8 @@ pub fn is_web_page(bytes: &[u8]) -> bool {
     }
 }
 
-/// Returns text in UTF-8 or UTF-16, else read with one byte per character; also the encoding, `None` for UTF-8.
+/// Decodes any bytes as text: as UTF-8 or UTF-16 if they are such, else with one byte per character. Returns the text
+/// and its encoding, `None` for UTF-8.
 pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     match utf8(bytes) {
         Ok(text) => (text.to_owned(), None),
@@ -171,7 +175,7 @@ pub fn any_text(bytes: &[u8]) -> (String, Option<Encoding>) {
     }
 }
 
-/// Whether text begins with the mark of UTF-16, or every second byte of Latin text is zero.
+/// Whether bytes are UTF-16: they begin with its byte-order mark, or every second byte is zero, as in Latin text.
 fn is_utf16(bytes: &[u8]) -> bool {
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return true;

@@ -19,16 +19,16 @@ const DOWNWARD_LINE: usize = 22;
 const OUTPUT_RATIO_LINE: usize = 23;
 const TILT_LINE: usize = 25;
 const LAMP_SETS_LINE: usize = 26;
-/// Minimum flux of the lamps; lamps of less flux are written as lamps of 1000 lm. \[lm\]
+/// Minimum luminous flux of the lamps; lamps with less are written as lamps of 1000 lm. \[lm\]
 const LEAST_LAMPS: f64 = 0.1;
 const MAX_PLANES: f64 = limits::LUMINAIRE_PLANES as f64;
 const MAX_ANGLES: f64 = limits::LUMINAIRE_ANGLES as f64;
 
-/// Writes a luminaire of photometry C. Its planes must cover the full turn (or be one).
+/// Returns an EULUMDAT file of a luminaire of photometry C, whose planes cover the full turn (or are a single one).
 ///
-/// The rated flux is the flux of the file's own zonal sum when the luminaire states none. Four heights of the luminous
-/// area are the opening's height on all sides, so that no direction divides by a zero area. A width of 0 marks a
-/// circle, so that another side of zero is written as 1 mm, except for a point.
+/// The rated flux is the zonal sum of the written intensities if the luminaire states none. All four heights of the
+/// luminous area are the height of the opening, so that the luminous area is 0 in no direction. A width of 0 marks a
+/// circle, so that another side of length 0 is written as 1 mm, except for a point.
 pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     let flux = luminaire.flux();
     let rated = luminaire.lamp_flux.unwrap_or(flux);
@@ -83,7 +83,7 @@ pub fn write(luminaire: &Luminaire) -> Vec<u8> {
     out.into_bytes()
 }
 
-/// Returns the step of equally spaced angles, 0 when they are not equally spaced (as the format defines).
+/// Returns the step of equally spaced angles \[°\]; 0 when they are not equally spaced, as the format defines.
 fn even_step(angles: &[f64], closes_the_turn: bool) -> f64 {
     let Some(step) = angles.windows(2).map(|pair| pair[1] - pair[0]).next() else { return 0.0 };
     let even = angles.windows(2).all(|pair| (pair[1] - pair[0] - step).abs() < 1e-6);
@@ -91,9 +91,10 @@ fn even_step(angles: &[f64], closes_the_turn: bool) -> f64 {
     if even && closed { step } else { 0.0 }
 }
 
-/// Returns the shares of the downward flux that reach the work plane without reflection, for the room indices 0.6, 0.8,
-/// 1, 1.25, 1.5, 2, 2.5, 3, 4, 5: a regular array on a ceiling, from the fluxes within 41.4°, 60°, 75.5° and 90° (zonal
-/// method of LiTG publication 3.5). For one aperture in a wall this is only a number that the format requires.
+/// Returns the direct ratios of a luminaire: shares of the downward flux that reach the work plane without reflection,
+/// for the room indices 0.6, 0.8, 1, 1.25, 1.5, 2, 2.5, 3, 4, 5: a regular array on a ceiling, from the fluxes within
+/// 41.4°, 60°, 75.5° and 90° (zonal method of LiTG publication 3.5). For one aperture in a wall this is only a number
+/// that the format requires.
 pub fn direct_ratios(luminaire: &Luminaire) -> [f64; 10] {
     // Weights of the four cumulated fluxes; each column of four sums to 1.
     const WEIGHTS: [[f64; 10]; 4] = [
@@ -210,7 +211,8 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     checked(luminaire, &stated)
 }
 
-/// Returns a finding if a step in the header is not the one between the first two angles of its list.
+/// Returns a finding if the angular step that the header states differs from that between the first two angles of its
+/// list.
 fn step_contradicts(name: &str, line: usize, step: f64, angles: &[f64]) -> Option<Finding> {
     let [first, second, ..] = angles else { return None };
     let listed = second - first;
@@ -225,20 +227,20 @@ fn step_contradicts(name: &str, line: usize, step: f64, angles: &[f64]) -> Optio
     })
 }
 
-/// Planes whose intensities are in the file.
+/// C planes whose intensities the file contains, and those that it lists.
 struct StoredPlanes<'a> {
     symmetry: usize,
-    /// Planes of the list, without one at 360° that repeats the first and has no intensities of its own. \[°\]
+    /// Planes that the file lists, without one at 360° that repeats the first and has no intensities. \[°\]
     listed: &'a [f64],
-    /// Angles of the stored planes, in the order of the table. \[°\]
+    /// Angles C of the planes with intensities, in the order of the table. \[°\]
     c_deg: Vec<f64>,
     /// Finding on a list of planes that deviates from the format.
     remark: Option<Finding>,
 }
 
 impl<'a> StoredPlanes<'a> {
-    /// Creates the stored planes from the list of the file `c_all`, which should contain the planes of the full turn,
-    /// whatever the symmetry.
+    /// Determines the planes with intensities from the symmetry indicator and the list of the file `c_all` \[°\], which
+    /// should contain the planes of the full turn, whatever the symmetry.
     fn new(symmetry: usize, c_all: &'a [f64]) -> Self {
         let count = c_all.len();
         let (first, last) = (c_all[0], c_all[count - 1]);
@@ -275,7 +277,7 @@ impl<'a> StoredPlanes<'a> {
         Self { symmetry, listed, c_deg, remark }
     }
 
-    /// Returns all planes of the turn, at the listed angles.
+    /// Returns all planes of the full turn, at the listed angles, with the stored plane that each copies.
     fn turn(&self, line: usize) -> Result<Turn, FormatError> {
         let (mirrors, about) = match self.symmetry {
             2 => (Mirrors::C0, "C0-C180"),
@@ -331,13 +333,13 @@ impl Lines<'_> {
         }
     }
 
-    /// Returns a share that is stated in percent; `None` where the line is blank.
+    /// Returns a value stated in percent as a share, 0 … 1; `None` where the line is blank.
     fn percent(&self, line: usize, name: &str) -> Result<Option<f64>, FormatError> {
         let value = self.number_or_zero(line, name)?;
         Ok((!self.lines[line - 1].is_empty()).then_some(value / 100.0))
     }
 
-    /// Returns the luminous opening; a width of 0 marks a circle whose diameter is the length.
+    /// Returns the luminous opening that the file states; a width of 0 marks a circle whose diameter is the length.
     fn opening(&self, findings: &mut Vec<Finding>) -> Result<Opening, FormatError> {
         let mut sizes = [0.0; 6];
         for (size, line) in sizes.iter_mut().zip(OPENING_LINE..) {
@@ -369,7 +371,7 @@ impl Lines<'_> {
     }
 }
 
-/// Lines of numbers from a given line on, without blank ones.
+/// Numbers of a file, one per line, from a given line on, without blank lines.
 struct Values<'a, 'b> {
     lines: &'a Lines<'b>,
     /// Number of the line to read next, from 1.
@@ -377,7 +379,8 @@ struct Values<'a, 'b> {
 }
 
 impl Values<'_, '_> {
-    /// Returns a finding on numbers and text on the lines that were not read.
+    /// Returns a finding on numbers and text after the last value; `due`: number of values required, `counts`: their
+    /// counts as text.
     fn rest(&self, due: usize, counts: &str) -> Option<Finding> {
         let left = self.lines.lines.iter().zip(1..).skip(self.next - 1);
         let left = left.map(|(text, line)| (text.trim_matches('\u{1a}'), line)).filter(|(text, _)| !text.is_empty());

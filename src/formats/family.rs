@@ -1,10 +1,10 @@
-//! Files that belong together: the functions of one state, the states of one product.
+//! Joining of files that belong together: the transmission and reflection functions of one state.
 
 use super::btdf_text;
 use crate::compute::btdf::Dataset;
 
-/// Joins datasets of one-function files that have the same name and state and hold different functions: transmission
-/// and reflection, from outside and from inside. Others stay as they are, in order.
+/// Joins datasets of files with one function each that have the same name and state and different functions
+/// (transmission and reflection, from outside and from inside). Other datasets are returned unchanged, in their order.
 pub fn merge_sides(datasets: Vec<Dataset>) -> Vec<Dataset> {
     let mut merged: Vec<Dataset> = Vec::new();
     for dataset in datasets {
@@ -41,7 +41,7 @@ fn belongs(a: &Dataset, b: &Dataset) -> bool {
         && b.visible.components().into_iter().all(|component| a.visible.get(component).is_none())
 }
 
-/// Whether the dataset comes from a format whose files hold one function each.
+/// Whether the dataset was read from a format whose files contain one function each (`.btdf.txt`).
 pub fn is_one_function(dataset: &Dataset) -> bool {
     dataset.format.starts_with(btdf_text::FAMILY)
 }

@@ -1,32 +1,34 @@
-//! Table of the built-in products' figures: CSV, one row per state, so that changes of single products show up when two
-//! versions are compared.
+//! Table of the optical figures of the built-in products: CSV, one row per state, so that changes of single products
+//! show when two versions of the program are compared.
 //!
 //! Columns: `product` (key), `fingerprint` of the inputs of the computation, `state`, the figures, and the
-//! transmittances `t…` at rising profile angles in degrees. An empty field of `to_ceiling`: nothing is transmitted.
+//! transmittances `t…` at rising profile angles in degrees. `to_ceiling` is empty if nothing is transmitted.
 
 use super::location::excerpt;
 use std::fmt::Write as _;
 
-/// Names of the columns before the transmittances.
+/// Names of the columns before those of the transmittances.
 const HEAD: [&str; 8] =
     ["product", "fingerprint", "state", "tau_normal", "tau_hemispherical", "to_ceiling", "sun_blocked", "view"];
 
-/// Figures of a state, see [`crate::compute::btdf::LightFigures`] for the last three.
+/// Optical figures of one state of a built-in product; see [`crate::compute::btdf::LightFigures`] for the last three.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FigureRow {
     /// Key of the product.
     pub product: String,
-    /// Hash of the inputs that the figures were computed from.
+    /// Hash of the inputs from which the figures were computed.
     pub fingerprint: String,
-    /// Key of the state; empty for the only one of a system without states.
+    /// Key of the state; empty for a product without states.
     pub state: String,
     /// Visible transmittance at normal incidence.
     pub tau_normal: f64,
-    /// Visible transmittance under uniform luminance.
+    /// Hemispherical visible transmittance: for uniform incident luminance.
     pub tau_hemispherical: f64,
-    /// Transmittances in the vertical plane, at profile angles that the caller defines.
+    /// Direct-hemispherical visible transmittances in the vertical plane perpendicular to the façade, at profile angles
+    /// that the caller defines.
     pub tau_profile: Vec<f64>,
-    /// Share of the transmitted skylight that leaves upwards.
+    /// Share of the transmitted skylight that leaves upwards, towards the ceiling, 0 … 1; `None` if nothing is
+    /// transmitted.
     pub to_ceiling: Option<f64>,
     /// Share of direct sun blocked at 45° solar altitude (1 − τ).
     pub sun_blocked: f64,
@@ -34,18 +36,18 @@ pub struct FigureRow {
     pub view: f64,
 }
 
-/// Error of reading a table.
+/// Error in reading a table of figures.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("line {line}: {what}")]
 pub struct TableError {
     /// Line number, from 1.
     pub line: usize,
-    /// Message: what is wrong, and what was expected.
+    /// Description of the problem, and of what was expected.
     pub what: String,
 }
 
-/// Returns the table as text; `angles`: profile angles of the transmittances \[°\]. Figures have five decimals, far
-/// finer than their uncertainty.
+/// Returns the table of figures as CSV text; `angles`: profile angles of the transmittances \[°\]. Figures are written
+/// with five decimals, far finer than their uncertainty.
 pub fn write(rows: &[FigureRow], angles: &[f64]) -> String {
     let mut text = HEAD.join(",");
     for angle in angles {
@@ -68,7 +70,7 @@ pub fn write(rows: &[FigureRow], angles: &[f64]) -> String {
     text
 }
 
-/// Reads a table that [`write()`] wrote for these profile angles.
+/// Reads a table of figures that [`write()`] wrote for the profile angles `angles` \[°\].
 ///
 /// # Errors
 /// Returns an error with the line that does not fit the table, and what is wrong with it.

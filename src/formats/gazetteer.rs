@@ -1,59 +1,61 @@
-//! Table of places: countries and cities as lines of text with tabs between their fields, compressed with zstd.
+//! Gazetteer: table of countries and cities with coordinates, as lines of text with tabs between their fields,
+//! compressed with zstd.
 //!
-//! Countries (code, name) come before an empty line, cities after it, the largest at the top: name, code of the
-//! country, state (may be empty), latitude and longitude \[°\], elevation \[m\] (may be empty), UTC offset \[h\], other
-//! names separated by commas. Not read: anything else; the table is made by `assets/places/draw.py`.
+//! Countries (code, name) are listed before an empty line, cities after it in the order of falling population: name,
+//! code of the country, state (may be empty), latitude and longitude \[°\], elevation \[m\] (may be empty), UTC offset
+//! \[h\], other names separated by commas. The table is made by `assets/places/draw.py`.
 
 use super::location::excerpt;
 use std::collections::BTreeMap;
 use std::io::Read as _;
 use std::sync::Arc;
 
-/// Maximum size of the table. \[bytes\]
+/// Maximum uncompressed size of the table. \[bytes\]
 const LARGEST: u64 = 1 << 24;
 
-/// City of the table.
+/// City of the gazetteer: names, country, coordinates, elevation and UTC offset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct City {
-    /// Name in its original spelling.
+    /// Name of the city in its original spelling.
     pub name: Box<str>,
-    /// Name of the country.
+    /// Name of the city's country.
     pub country: Arc<str>,
-    /// Code of the country, ISO 3166.
+    /// Two-letter code of the city's country, ISO 3166.
     pub code: [char; 2],
-    /// State, where it is needed to distinguish cities of one name; else empty.
+    /// State or province, where it is needed to distinguish cities with the same name; else empty.
     pub region: Box<str>,
-    /// Latitude, north positive. \[°\]
+    /// Latitude of the city, north positive. \[°\]
     pub latitude: f64,
-    /// Longitude, east positive. \[°\]
+    /// Longitude of the city, east positive. \[°\]
     pub longitude: f64,
-    /// Elevation above sea level. \[m\]
+    /// Elevation of the city above sea level; `None` if unknown. \[m\]
     pub elevation: Option<f64>,
-    /// UTC offset of standard time. \[h\]
+    /// UTC offset of the city's standard time, positive ahead of UTC. \[h\]
     pub utc_offset: f64,
-    /// Other names in lower case without accents; the first is the plain form of the name where that has accents.
+    /// Other names of the city, in lower case without accents; the first is the plain form of `name` if that has
+    /// accents.
     pub other_names: Vec<Box<str>>,
 }
 
-/// Error of reading the table.
+/// Error in reading the gazetteer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GazetteerError {
-    /// Bytes that are not compressed text.
+    /// Bytes that are not text compressed with zstd.
     #[error("no text compressed with zstd: {0}")]
     Packed(String),
-    /// Line that cannot be read.
+    /// Line of the table that is not valid.
     #[error("line {line}: {found} (expected {expected})")]
     Line {
         /// Line number, from 1.
         line: usize,
-        /// Phrase for what was found there.
+        /// Text of the message: what was found in the line.
         found: String,
-        /// Phrase for what was expected.
+        /// Text of the message: what was expected.
         expected: &'static str,
     },
 }
 
-/// Reads the table; the order is kept.
+/// Reads the gazetteer from its compressed bytes; cities are returned in the order of the table.
 ///
 /// # Errors
 /// Returns an error with the line and what is wrong with it.

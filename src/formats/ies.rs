@@ -1,4 +1,4 @@
-//! IES LM-63 (`.ies`): keywords, then numbers in free format.
+//! IES LM-63 (`.ies`): luminaire files with keywords, followed by numbers in free format.
 //!
 //! Written: absolute photometry (−1 lm, multiplier 1) of type C with the full turn 0…360°, metres, lines of at most 132
 //! characters, CRLF, editions 2002 and 2019. Read: 1986 to 2019, types A, B and C (only C is expanded to a full turn),
@@ -15,7 +15,7 @@ use super::luminaire_text::{ascii, at_line, decode, number};
 use crate::compute::btdf::Finding;
 use std::borrow::Cow;
 
-/// Edition of LM-63 that is written.
+/// Edition of the standard IES LM-63 in which a luminaire file is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum IesEdition {
     /// `IESNA:LM-63-2002`, which most programs read.
@@ -25,10 +25,10 @@ pub enum IesEdition {
 }
 
 const LINE_LIMIT: usize = 132;
-/// Value of lumens per lamp that marks absolute photometry.
+/// Value of the field "lumens per lamp" that marks absolute photometry.
 const ABSOLUTE: f64 = -1.0;
 
-/// Returns the file of a luminaire of photometry C whose planes cover the full turn (or are one).
+/// Returns an IES file of a luminaire of photometry C whose planes cover the full turn (or are a single one).
 pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
     let mut out = Vec::new();
     let (first_line, generation) = match edition {
@@ -85,7 +85,7 @@ pub fn write(luminaire: &Luminaire, edition: IesEdition) -> Vec<u8> {
     file.into_bytes()
 }
 
-/// Adds the lines of `[KEYWORD] text`, continued by `[MORE]`; nothing of the text is lost.
+/// Adds the lines `[KEYWORD] text` to the file, continued by `[MORE]` lines where the text is long.
 fn keyword_lines(out: &mut Vec<String>, keyword: &str, value: &str) {
     let value = ascii(value);
     let mut line = format!("[{keyword}]");
@@ -108,7 +108,7 @@ fn keyword_lines(out: &mut Vec<String>, keyword: &str, value: &str) {
     out.push(line);
 }
 
-/// Adds numbers on lines of limited length.
+/// Adds numbers to the file, on lines of limited length.
 fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
     let mut line = String::new();
     for &value in values {
@@ -124,7 +124,7 @@ fn wrap(out: &mut Vec<String>, values: &[f64], decimals: usize) {
     out.push(line);
 }
 
-/// Reads an LM-63 file.
+/// Reads an IES LM-63 file.
 ///
 /// # Errors
 /// Returns an error with its line if there is no TILT line, if the tilt is in another file, if counts or types are out
@@ -209,7 +209,7 @@ pub fn read(bytes: &[u8]) -> Result<Luminaire, FormatError> {
     checked(luminaire, &stated)
 }
 
-/// Returns the index of the line that ends the keywords.
+/// Returns the index of the TILT line, which ends the keywords.
 fn tilt_line(lines: &[&str]) -> Result<usize, FormatError> {
     let upper = |line: &&str| line.trim_start().to_ascii_uppercase();
     let expected = "a line TILT=NONE or TILT=INCLUDE";
@@ -222,24 +222,24 @@ fn tilt_line(lines: &[&str]) -> Result<usize, FormatError> {
     })
 }
 
-/// Numbers of a file as written in it; sizes in metres.
+/// Numbers of a file after its TILT line, as written in it; sizes are in metres.
 struct Numbers {
     lamps: f64,
     lumens: f64,
-    /// Line of the lumens.
+    /// Line number of the lumens per lamp, from 1.
     lamps_line: usize,
     multiplier: f64,
     photometry: Photometry,
-    /// Width, length and height, negative where they mark round shapes. \[m\]
+    /// Width, length and height of the luminous opening, negative where they mark round shapes. \[m\]
     sizes: [f64; 3],
-    /// Line of the last size.
+    /// Line number of the opening's last size, from 1.
     opening_line: usize,
     ballast: f64,
     ballast_lamp: f64,
     power: f64,
     gamma_deg: Vec<f64>,
     c_file: Vec<f64>,
-    /// Line of the last horizontal angle.
+    /// Line number of the last horizontal angle, from 1.
     c_line: usize,
     table: Vec<f64>,
 }
@@ -299,7 +299,7 @@ impl Numbers {
     }
 }
 
-/// Reads the data that the TILT line announces. Returns a finding on them.
+/// Reads the tilt factors that the TILT line announces, which are not applied; returns a finding about them.
 fn tilt(tokens: &mut Tokens, word: &str, line: usize) -> Result<Option<Finding>, FormatError> {
     let upper = word.to_ascii_uppercase();
     match upper.as_str() {
@@ -340,7 +340,7 @@ fn after_the_table(tokens: &Tokens, [angles, planes]: [usize; 2]) -> Result<Opti
     }))
 }
 
-/// Returns the value of a keyword with its `[MORE]` lines; empty when it is missing.
+/// Returns the text of a keyword with its `[MORE]` lines; empty when the keyword is missing.
 fn keyword_value(lines: &[&str], name: &str) -> String {
     let mut parts = Vec::new();
     let mut inside = false;

@@ -4,24 +4,24 @@ use super::FormatError;
 use super::location::excerpt;
 use super::luminaire_text::{at_line, parse_number};
 
-/// Numbers that are read one after the other.
+/// Reader of the numbers of an LM-63 file one after the other, with their line numbers.
 pub(super) struct Tokens<'a> {
     tokens: Vec<(usize, &'a str)>,
     next: usize,
-    /// Number of commas directly between two digits, as decimal commas are.
+    /// Number of commas directly between two digits, which may be decimal commas.
     commas: usize,
 }
 
-/// Text after the last required number.
+/// Summary of the text after the last required number of a file.
 pub(super) struct Rest {
-    /// Number of numbers in it.
+    /// Number of numbers that the text contains.
     pub numbers: usize,
-    /// Line of the first piece; `None` where there is nothing.
+    /// Line number where the text begins, from 1; `None` without any text.
     pub line: Option<usize>,
 }
 
 impl<'a> Tokens<'a> {
-    /// Creates the tokens of the lines after the first `from`.
+    /// Creates the reader for the lines of a file after the first `from` lines.
     pub fn new(lines: &[&'a str], from: usize) -> Self {
         let pieces = |line: &'a str| {
             // DOS ended texts with a control character.
@@ -35,24 +35,24 @@ impl<'a> Tokens<'a> {
         Self { tokens, next: 0, commas }
     }
 
-    /// Returns the line of the number read last, from 1.
+    /// Returns the line number of the number read last, from 1.
     pub fn line(&self) -> usize {
         self.tokens.get(self.next.saturating_sub(1)).or(self.tokens.last()).map_or(1, |token| token.0)
     }
 
-    /// Returns the text that was not read.
+    /// Returns a summary of the text that has not been read.
     pub fn rest(&self) -> Rest {
         let left = &self.tokens[self.next..];
         let numbers = left.iter().filter(|(_, token)| parse_number(token).is_some()).count();
         Rest { numbers, line: left.first().map(|token| token.0) }
     }
 
-    /// Whether decimal commas explain `surplus` numbers: each makes two numbers of one.
+    /// Whether decimal commas, each of which makes two numbers of one, explain `surplus` superfluous numbers.
     pub fn has_decimal_commas(&self, surplus: usize) -> bool {
         surplus > 0 && self.commas == surplus
     }
 
-    /// Returns the error, with a remark on commas where decimal commas may have shifted all numbers.
+    /// Returns the error, with a remark on decimal commas if these may have shifted all numbers.
     pub fn explained(&self, mut error: FormatError) -> FormatError {
         if self.commas > 0 {
             error.expected.push_str(COMMAS);
@@ -60,10 +60,10 @@ impl<'a> Tokens<'a> {
         error
     }
 
-    /// Reads the next number, which messages call `name`.
+    /// Reads the next number; `name`: its name in messages.
     ///
     /// # Errors
-    /// Returns an error if the file ends or something else than a finite number stands there.
+    /// Returns an error if the file ends, or if the next text is not a finite number.
     pub fn number(&mut self, name: &str) -> Result<f64, FormatError> {
         let Some(&(line, token)) = self.tokens.get(self.next) else {
             return Err(at_line(self.line(), "the end of the file", name));
@@ -73,10 +73,10 @@ impl<'a> Tokens<'a> {
             .ok_or_else(|| at_line(line, format!("\"{}\"", excerpt(token)), format!("a number ({name})")))
     }
 
-    /// Reads a count of angles, 1 … 3601.
+    /// Reads the next number as a count of angles, 1 … 3601; `name`: its name in messages.
     ///
     /// # Errors
-    /// Returns an error if the next number is not such a count.
+    /// Returns an error if the next text is not such a count.
     pub fn count(&mut self, name: &str) -> Result<usize, FormatError> {
         let value = self.number(name)?;
         if !(1.0..=3601.0).contains(&value) || value.fract() != 0.0 {
@@ -85,10 +85,10 @@ impl<'a> Tokens<'a> {
         Ok(value as usize)
     }
 
-    /// Reads one of the whole numbers 1 … `max`; `allowed` says in messages what they mean.
+    /// Reads the next number as a whole number from 1 to `max`; `allowed`: meaning of these numbers, for messages.
     ///
     /// # Errors
-    /// Returns an error if the next number is another.
+    /// Returns an error if the next text is not such a number.
     pub fn choice(&mut self, name: &str, allowed: &str, max: u8) -> Result<u8, FormatError> {
         let value = self.number(name)?;
         (1..=max)
@@ -96,10 +96,10 @@ impl<'a> Tokens<'a> {
             .ok_or_else(|| at_line(self.line(), format!("{name} {value}"), format!("{name} must be {allowed}")))
     }
 
-    /// Reads `count` numbers, which messages call `name`.
+    /// Reads the next `count` numbers; `name`: their name in messages.
     ///
     /// # Errors
-    /// Returns an error if the file ends before or something else than a number stands among them.
+    /// Returns an error if the file ends before, or if one of the texts is not a finite number.
     pub fn take(&mut self, count: usize, name: &str) -> Result<Vec<f64>, FormatError> {
         let left = self.tokens.len() - self.next;
         if left < count {
@@ -117,5 +117,5 @@ impl<'a> Tokens<'a> {
     }
 }
 
-/// Remark on decimal commas. LM-63-2002: delimiters are commas, blanks and line ends.
+/// Remark on decimal commas for messages. Source: LM-63-2002, delimiters are commas, blanks and line ends.
 pub(super) const COMMAS: &str = "; a comma separates numbers in LM-63: write decimals with a point";

@@ -1,4 +1,5 @@
-//! Kinds of files that the program writes, recognised by their bytes, so that a table never replaces a scene.
+//! Kinds of files that the program writes, recognised by their bytes, so that a file of another kind is not overwritten
+//! by mistake.
 
 use super::encoding::any_text;
 use super::{Format, dataset_blob, eulumdat, luminaire_index, package, weather};
@@ -6,11 +7,11 @@ use super::{Format, dataset_blob, eulumdat, luminaire_index, package, weather};
 /// Kind of file that the program writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
-    /// CSV: values between commas, under a line that names them.
+    /// CSV table: values separated by commas, with a header line.
     Csv,
-    /// Results as JSON.
+    /// Results in JSON.
     Json,
-    /// Comparison of figures as text.
+    /// Comparison of candidates as plain text.
     Comparison,
     /// Drawing as SVG.
     Svg,
@@ -32,11 +33,11 @@ pub enum FileKind {
     Package,
 }
 
-/// Number of bytes at the beginning of a file that show its kind.
+/// Number of bytes at the beginning of a file by which its kind is recognised.
 pub const HEAD: u64 = 1 << 20;
 
 impl FileKind {
-    /// Returns the name of the kind, with its article.
+    /// Returns the name of the kind with its article, for messages, e.g. "a CSV table".
     pub const fn words(self) -> &'static str {
         match self {
             Self::Csv => "a CSV table",
@@ -55,7 +56,7 @@ impl FileKind {
         }
     }
 
-    /// Whether such files are text, which a terminal shows.
+    /// Whether files of this kind are text, which can be shown in a terminal.
     pub const fn is_text(self) -> bool {
         !matches!(self, Self::Png | Self::Pdf | Self::Compact | Self::Package)
     }
@@ -81,8 +82,8 @@ impl FileKind {
     }
 }
 
-/// Returns the extension of the kind of file that bytes are, with its dot, for input without a name; an empty text
-/// where they are of no kind that is read.
+/// Returns the file name extension, with its dot, for bytes from an input without a name; an empty text if they are not
+/// of a kind that the program reads.
 pub fn extension_of(bytes: &[u8]) -> &'static str {
     let head = &bytes[..bytes.len().min(HEAD as usize)];
     let of_kind = [
@@ -113,7 +114,7 @@ pub fn extension_of(bytes: &[u8]) -> &'static str {
     }
 }
 
-/// Returns text in UTF-8; a character that is cut at the end does not count.
+/// Returns the bytes as UTF-8 text, without a character that is cut off at the end; `None` if they are not UTF-8.
 fn text(head: &[u8]) -> Option<&str> {
     let head = head.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(head);
     let text = match std::str::from_utf8(head) {
@@ -130,7 +131,7 @@ fn is_json(text: &str) -> bool {
     rest.trim_start().starts_with(['"', '{', '}', ']'])
 }
 
-/// Whether there are several lines with as many fields as the first one.
+/// Whether a text is CSV: several lines with as many fields as the first one.
 fn is_csv(text: &str) -> bool {
     // The last line may be cut.
     let whole = text.rfind('\n').map_or(text, |end| &text[..end]);

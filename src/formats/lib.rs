@@ -1,6 +1,6 @@
-//! File formats: bytes to compute types and back. Readers take `&[u8]` and never touch files.
+//! File formats: conversion between bytes and the types of `compute`. Readers take `&[u8]` and never open files.
 //!
-//! A new dataset format is a file here, an arm of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
+//! A new dataset format is a module here, a variant of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
 //! [`write_dataset`].
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
@@ -53,20 +53,20 @@ use crate::compute::btdf::Dataset;
 use crate::compute::limits;
 use std::collections::HashMap;
 
-/// Dataset format that is read and written.
+/// Exchange format of BSDF datasets that the program reads and writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Format {
     /// LBNL BSDF XML: Klems matrices and tensor trees.
     BsdfXml,
-    /// Text with a TOML header, as goniophotometers and makers' scripts write it.
+    /// Text with a TOML header (`.btdf.txt`), for data of goniophotometers.
     BtdfText,
 }
 
 impl Format {
-    /// All dataset formats.
+    /// All exchange formats of datasets.
     pub const ALL: [Self; 2] = [Self::BsdfXml, Self::BtdfText];
 
-    /// Returns the short name for messages and listings.
+    /// Returns the short name of the format for messages and listings.
     pub const fn name(self) -> &'static str {
         match self {
             Self::BsdfXml => "BSDF XML",
@@ -74,7 +74,7 @@ impl Format {
         }
     }
 
-    /// Returns the extensions, in lower case without the dot.
+    /// Returns the file name extensions of the format, in lower case without the dot.
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::BsdfXml => &["xml"],
@@ -82,13 +82,13 @@ impl Format {
         }
     }
 
-    /// Returns the format by the extension of a file's name.
+    /// Returns the format with the extension of a file's name; `None` for other extensions.
     pub fn from_name(name: &str) -> Option<Self> {
         let name = name.to_ascii_lowercase();
         Self::ALL.into_iter().find(|format| format.extensions().iter().any(|ext| name.ends_with(&format!(".{ext}"))))
     }
 
-    /// Returns the format by content, then by name.
+    /// Returns the format of a file, recognised by its content, then by its name; `None` if it is unknown.
     pub fn sniff(name: &str, bytes: &[u8]) -> Option<Self> {
         let (head, _) = encoding::any_text(&bytes[..bytes.len().min(4096)]);
         if head.contains("<WindowElement") {
@@ -120,10 +120,11 @@ impl Format {
     }
 }
 
-/// Reads a file's bytes, whatever its format: one dataset per state. `name` is only used for its extension.
+/// Reads a dataset file of any format (exchange formats, `.cfsd`, package of one product) from its bytes: one dataset
+/// per state. Of `name` only the extension is used.
 ///
 /// # Errors
-/// Returns an error if the reader refuses the bytes, or the format is unknown.
+/// Returns an error if the file is not valid, or if its format is unknown.
 pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     if bytes.starts_with(dataset_blob::MAGIC) {
         let read = dataset_blob::decode(bytes);
@@ -143,7 +144,7 @@ pub fn read_dataset(name: &str, bytes: &[u8]) -> Result<Vec<Dataset>, FormatErro
     }
 }
 
-/// Returns the states of a package's only product.
+/// Returns the datasets of a package with a single product, one per state.
 fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     let error = |what: String, expected: &str| FormatError::new(Location::file(), what, expected);
     let package = package::read(bytes).map_err(|e| error(e.to_string(), "a whole package (.cfsp)"))?;
@@ -170,7 +171,8 @@ fn packed(bytes: &[u8]) -> Result<Vec<Dataset>, FormatError> {
     product.states.iter().map(dataset).collect()
 }
 
-/// Returns the catalogue data in a dataset file, beyond its datasets; empty for formats without any.
+/// Returns the product data for the catalogue that a dataset file states beyond its datasets; empty for formats without
+/// any.
 ///
 /// # Errors
 /// Returns an error if the file's header is not valid.
@@ -181,10 +183,11 @@ pub fn catalogue_fields(name: &str, bytes: &[u8]) -> Result<CatalogueFields, For
     }
 }
 
-/// Returns the datasets as a file of the given format.
+/// Returns a file of the given format with the datasets, one per state.
 ///
 /// # Errors
-/// Returns an error if there are more states than the format holds, or if the writer cannot express the data.
+/// Returns an error if there are more states than a file of the format can contain, or if the format cannot express the
+/// data.
 pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, FormatError> {
     match (format, datasets) {
         (Format::BsdfXml, [one]) => bsdf_xml::write(one),
@@ -197,7 +200,7 @@ pub fn write_dataset(format: Format, datasets: &[Dataset]) -> Result<Written, Fo
     }
 }
 
-/// Returns the format that a file name requests for writing.
+/// Returns the format in which a file is to be written, by the extension of its name.
 ///
 /// # Errors
 /// Returns an error if no format has the extension.

@@ -9,7 +9,8 @@ const INK: Rgb = [60, 60, 60];
 const C0: Rgb = [196, 58, 40];
 const C90: Rgb = [38, 96, 168];
 
-/// Returns the polar diagram of the planes C0–C180 (red) and C90–C270 (blue), nadir down, C0 and C90 to the right.
+/// Returns the polar diagram of a luminaire's intensities in the planes C0–C180 (red) and C90–C270 (blue), with the
+/// nadir at the bottom and C0 and C90 to the right.
 pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     const SIZE: f64 = 640.0;
     let centre = 0.5 * SIZE;
@@ -55,7 +56,7 @@ pub fn polar_diagram(luminaire: &Luminaire) -> Drawing {
     Drawing { width: SIZE, height: SIZE, shapes }
 }
 
-/// Returns the index of the plane whose C is closest, all round the turn.
+/// Returns the index of the plane whose angle C is closest to `c_deg` \[°\], modulo 360°.
 fn nearest_plane(luminaire: &Luminaire, c_deg: f64) -> usize {
     let away = |c: f64| ((c - c_deg + 180.0).rem_euclid(360.0) - 180.0).abs();
     (0..luminaire.c_deg.len())
@@ -63,7 +64,8 @@ fn nearest_plane(luminaire: &Luminaire, c_deg: f64) -> usize {
         .unwrap_or(0)
 }
 
-/// Returns the next of 1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8, 10 times a power of ten: halves and quarters stay short.
+/// Returns the smallest number not below `value` that is 1, 1.2, 1.6, 2, 2.4, 3.2, 4, 5, 6, 8 or 10 times a power of
+/// ten, so that halves and quarters of it have few digits.
 fn round_up(value: f64) -> f64 {
     if value <= 0.0 {
         return 1.0;
@@ -76,7 +78,8 @@ fn round_up(value: f64) -> f64 {
         .unwrap_or(10.0 * decade)
 }
 
-/// Returns the table as CSV: `c_deg,gamma_deg,intensity_cd`, plane by plane.
+/// Returns the intensity table of a luminaire as CSV with the columns `c_deg`, `gamma_deg` \[°\] and `intensity_cd`
+/// \[cd\], plane by plane.
 pub fn to_csv(luminaire: &Luminaire) -> String {
     let mut csv = String::from("c_deg,gamma_deg,intensity_cd\n");
     for (plane, c) in luminaire.c_deg.iter().enumerate() {

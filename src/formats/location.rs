@@ -1,45 +1,45 @@
-//! Places of errors in files, and the error that every reader returns.
+//! Positions of errors in files, and the error that every reader returns.
 
 use super::encoding::{Encoding, NotText, RAW_FILE, TooLong};
 use crate::compute::limits;
 use crate::texts::message;
 use std::fmt;
 
-/// Place in a file, as exactly as the reader knows it.
+/// Position in a file, as exactly as the reader knows it.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Location {
-    /// Line, from 1.
+    /// Line number, from 1; `None` if unknown.
     pub line: Option<usize>,
-    /// Column in characters, from 1.
+    /// Column in characters, from 1; `None` if unknown.
     pub column: Option<usize>,
-    /// Offset in bytes, from 0.
+    /// Offset in bytes, from 0; `None` if unknown.
     pub byte: Option<usize>,
-    /// Element, block or key, as the file names it.
+    /// Name of the element, block or key, as written in the file; `None` if unknown.
     pub element: Option<String>,
 }
 
 impl Location {
-    /// Returns the place that stands for the whole file.
+    /// Returns a position that means the whole file.
     pub fn file() -> Self {
         Self::default()
     }
 
-    /// Returns the place of a line, from 1.
+    /// Returns the position of a line, counted from 1.
     pub fn line(line: usize) -> Self {
         Self { line: Some(line), ..Self::default() }
     }
 
-    /// Returns the place of a line and a column, both from 1.
+    /// Returns the position of a line and a column, both counted from 1.
     pub fn line_column(line: usize, column: usize) -> Self {
         Self { line: Some(line), column: Some(column), ..Self::default() }
     }
 
-    /// Returns the place of a byte offset, from 0.
+    /// Returns the position of a byte offset, counted from 0.
     pub fn byte(byte: usize) -> Self {
         Self { byte: Some(byte), ..Self::default() }
     }
 
-    /// Returns the place with the name of the element or block added.
+    /// Returns the position with the name of the element, block or key added.
     #[must_use]
     pub fn in_element(mut self, element: impl Into<String>) -> Self {
         self.element = Some(element.into());
@@ -66,21 +66,21 @@ impl fmt::Display for Location {
     }
 }
 
-/// Error of a reader: place, what was found, what was expected. The caller adds the file's name.
+/// Error of a file's reader: position, what was found, what was expected. The caller adds the name of the file.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{at}: {found}; expected {expected}")]
 pub struct FormatError {
-    /// Place of the error.
+    /// Position of the error in the file.
     pub at: Location,
-    /// Phrase for what was found there.
+    /// Text of the message: what was found at the position.
     pub found: String,
-    /// Phrase for what was expected.
+    /// Text of the message: what was expected.
     pub expected: String,
 }
 
 impl FormatError {
-    /// Creates the error from its three parts, in a form that can be shown: on one line, without control characters for
-    /// a terminal.
+    /// Creates the error from position, finding and expectation, as text that can be shown in a terminal: on one line,
+    /// without control characters.
     pub fn new(at: Location, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Self { at, found: short(message(&found.into())), expected: short(message(&expected.into())) }
     }
@@ -106,7 +106,7 @@ impl From<NotText> for FormatError {
     }
 }
 
-/// Shortens a message that quotes a file, whose words may have any length.
+/// Shortens a message that quotes text of a file, which may have any length.
 pub(crate) fn short(mut text: String) -> String {
     const MOST: usize = 900;
     if let Some((at, _)) = text.char_indices().nth(MOST) {

@@ -1,4 +1,4 @@
-//! Luminaire as photometric files describe it: what EULUMDAT and LM-63 have in common.
+//! Luminaire as photometric files describe it: the data that EULUMDAT and IES LM-63 have in common.
 //!
 //! Plain data between the two formats and the rest of the program. Angles are in degrees here, as in the files.
 
@@ -9,70 +9,72 @@ use std::f64::consts::FRAC_PI_2;
 
 pub use super::luminaire_opening::{Opening, Shape};
 
-/// Axis about which the planes of a photometric file turn.
+/// Type of photometry: the axis about which the planes of a photometric file are rotated.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Photometry {
-    /// Vertical axis of C planes, with the angles C and γ.
+    /// Type C: vertical axis of the C planes, with angles C of the planes and γ from the nadir.
     C,
-    /// Horizontal axis: the vertical angle counts planes, the horizontal angle lies in them (LM-75-01). Read unchanged,
-    /// not converted to C.
+    /// Type B: horizontal axis; vertical angles identify the planes, horizontal angles lie in them (LM-75-01). Read
+    /// unchanged, not converted to C.
     B,
-    /// Vertical axis: the horizontal angle counts planes, the vertical angle lies in them from the horizon (LM-75-01).
-    /// Read unchanged.
+    /// Type A: vertical axis; horizontal angles identify the planes, vertical angles lie in them, from the horizon
+    /// (LM-75-01). Read unchanged.
     A,
 }
 
-/// Text that identifies a luminaire.
+/// Texts that identify a luminaire and the origin of its data.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Description {
-    /// Number of the measurement or computation.
+    /// Number of the report on the measurement or computation.
     pub report: String,
-    /// Laboratory or program that measured or computed it.
+    /// Laboratory or program that measured or computed the intensities.
     pub laboratory: String,
-    /// Date of issue.
+    /// Date of issue of the data, as text.
     pub date: String,
-    /// Maker.
+    /// Maker of the luminaire.
     pub manufacturer: String,
-    /// Catalogue number.
+    /// Catalogue number of the luminaire.
     pub number: String,
     /// Name of the luminaire.
     pub name: String,
-    /// Name of the light source.
+    /// Name of the light source or lamp.
     pub lamp: String,
     /// Remarks for users of the file, one paragraph each.
     pub remarks: Vec<String>,
 }
 
-/// Luminaire with its intensity distribution.
+/// Luminaire with its luminous intensity distribution, as read from or written to a photometric file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Luminaire {
-    /// Format as the file names itself.
+    /// Name of the format and edition, as the file states it.
     pub format: String,
-    /// Identifying text.
+    /// Texts that identify the luminaire.
     pub text: Description,
-    /// Kind of planes.
+    /// Type of photometry, which defines planes and angles.
     pub photometry: Photometry,
     /// Luminous opening.
     pub opening: Opening,
-    /// Planes, rising; for photometry C all of the turn (360° not repeated) or one plane for all. \[°\]
+    /// Angles of the planes, rising; for photometry C those of the full turn (360° not repeated), or one plane that
+    /// represents all. \[°\]
     pub c_deg: Vec<f64>,
-    /// Angles in a plane, rising. \[°\]
+    /// Angles in each plane, rising; for photometry C γ from the nadir. \[°\]
     pub gamma_deg: Vec<f64>,
-    /// Plane by plane. \[cd\]
+    /// Luminous intensities, plane by plane in the order of `c_deg`, in each for all angles of `gamma_deg`. \[cd\]
     pub intensity: Vec<f64>,
-    /// Rated flux of the lamps that the intensities belong to; `None` for absolute photometry. \[lm\]
+    /// Rated luminous flux of the lamps that the intensities belong to; `None` for absolute photometry. \[lm\]
     pub lamp_flux: Option<f64>,
-    /// Electrical power. \[W\]
+    /// Electrical power of the luminaire. \[W\]
     pub power: f64,
-    /// Findings about what a reader had to assume.
+    /// Findings of the file's reader, e.g. about assumptions it made.
     pub findings: Vec<Finding>,
 }
 
 impl Luminaire {
-    /// Creates the luminaire of an aperture from its tabulated distribution.
+    /// Creates a luminaire that represents an aperture, from its tabulated luminous intensity distribution.
     ///
-    /// `size` is the aperture's along its own x and y \[m\]. Remarks on orientation, subdivision and quadrature are
-    /// added to those of `text`, because a host that does not know them gets the near field or the direction wrong.
+    /// `size` is the size of the aperture along the x and y axes of its frame \[m\]. Remarks on orientation,
+    /// subdivision and quadrature are added to those of `text`, because a lighting program whose user does not know
+    /// them computes the near field or the direction wrongly.
     pub fn from_table(table: &CGammaTable, size: [f64; 2], mut text: Description) -> Self {
         let [x, y] = size;
         let opening = match table.aim {
@@ -97,18 +99,20 @@ impl Luminaire {
         }
     }
 
-    /// Returns the intensities in radians, as a lighting program reads them. Only for photometry C.
+    /// Returns the intensity distribution for evaluation in any direction, interpolated as by a lighting program, with
+    /// angles in radians. Only for photometry C.
     pub fn intensities(&self) -> Intensities {
         Intensities { c: radians(&self.c_deg), gamma: radians(&self.gamma_deg), values: self.intensity.clone() }
     }
 
-    /// Returns the intensities of one plane. \[cd\]
+    /// Returns the intensities in the plane with index `plane`, one per angle of `gamma_deg`. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.gamma_deg.len()..][..self.gamma_deg.len()]
     }
 
-    /// Returns the flux between the nadir and γ, by the zonal sum: a zone between two angles has the mean of their
-    /// intensities, a plane represents half the distance to its neighbours. Only for photometry C. \[lm\]
+    /// Returns the luminous flux between the nadir and the angle γ = `gamma_deg` \[°\] by the zonal sum: a zone between
+    /// two angles has the mean of their intensities, a plane represents half the distance to its neighbours. \[lm\]
+    /// Only for photometry C.
     pub fn flux_within(&self, gamma_deg: f64) -> f64 {
         let weights = self.plane_weights();
         let mut flux = 0.0;
@@ -128,8 +132,8 @@ impl Luminaire {
         flux
     }
 
-    /// Returns the flux of the whole distribution. One plane of type A or B says nothing of the flux, which is then 0.
-    /// \[lm\]
+    /// Returns the luminous flux of the whole distribution. \[lm\] For a single plane of photometry A or B, which does
+    /// not determine the flux, 0.
     pub fn flux(&self) -> f64 {
         let (horizontal, vertical) = match self.photometry {
             Photometry::C => return self.flux_within(180.0),
@@ -142,7 +146,7 @@ impl Luminaire {
         if self.c_deg[0] == 0.0 { 2.0 * flux } else { flux }
     }
 
-    /// Returns the azimuth range that each plane represents. \[rad\]
+    /// Returns the range of the angle C that each plane represents. \[rad\]
     fn plane_weights(&self) -> Vec<f64> {
         let n = self.c_deg.len();
         (0..n)
@@ -154,7 +158,7 @@ impl Luminaire {
             .collect()
     }
 
-    /// Returns the largest intensity. \[cd\]
+    /// Returns the largest luminous intensity. \[cd\]
     pub fn peak(&self) -> f64 {
         self.intensity.iter().copied().fold(0.0, f64::max)
     }
@@ -164,13 +168,14 @@ fn radians(degrees: &[f64]) -> Vec<f64> {
     degrees.iter().map(|angle| angle.to_radians()).collect()
 }
 
-/// Returns the weights of angles about the axis, between which intensities are linear. \[rad\]
+/// Returns the integration weights of plane angles, given in degrees, for intensities that are linear between planes.
+/// \[rad\]
 fn about_axis(degrees: &[f64]) -> Vec<f64> {
     weights(&radians(degrees), |[a, b]| [0.5 * (b - a); 2])
 }
 
-/// Returns the weights of angles from the equator to the poles, between which intensities are linear: integrals over
-/// the cosine.
+/// Returns the integration weights of angles from the equator, given in degrees, for intensities that are linear
+/// between them: integrals over the cosine.
 fn from_equator(degrees: &[f64]) -> Vec<f64> {
     let angles: Vec<f64> = radians(degrees).iter().map(|angle| angle.clamp(-FRAC_PI_2, FRAC_PI_2)).collect();
     weights(&angles, |[a, b]| {
@@ -183,7 +188,8 @@ fn from_equator(degrees: &[f64]) -> Vec<f64> {
     })
 }
 
-/// Returns the weights of nodes from those that `of_pair` gives the two ends of each interval.
+/// Returns the integration weights of angles, as sums of those that `of_pair` returns for the two ends of each
+/// interval.
 fn weights(angles: &[f64], of_pair: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<f64> {
     let mut weights = vec![0.0; angles.len()];
     for (k, pair) in angles.windows(2).enumerate() {

@@ -1,5 +1,5 @@
-//! Checks of a luminaire that was read, the same for all formats. Impossible values are refused; contradictions and
-//! omissions give findings.
+//! Checks of a luminaire that was read from a file, the same for all formats. Impossible values give an error;
+//! contradictions and omissions give findings.
 
 use super::luminaire::{Luminaire, Photometry};
 use super::luminaire_opening::Opening;
@@ -9,57 +9,58 @@ use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::compute::limits;
 
-/// Negative intensity that is accepted as a difference of measurements, relative to the largest intensity.
+/// Magnitude up to which a negative intensity is accepted as measurement noise, relative to the largest intensity.
 const BELOW_ZERO: f64 = 0.01;
-/// Maximum power of a luminaire. \[W\]
+/// Maximum electrical power of a luminaire. \[W\]
 const MAX_POWER: f64 = 1e7;
-/// Maximum size of a luminaire. \[m\]
+/// Maximum length of a luminaire's opening. \[m\]
 const MAX_SIZE: f64 = 1000.0;
-/// Relative difference below which fluxes, or ratios of them, differ only by steps and rounding. Chosen: the zonal sum
-/// of narrow beams in steps of 5° is some percent off.
+/// Relative difference below which luminous fluxes, or ratios of them, differ only by angular steps and rounding.
+/// Chosen: the zonal sum of narrow beams in steps of 5° is some percent off.
 const SAME_FLUX: f64 = 0.1;
-/// Difference of light output ratios that rounding of small values explains.
+/// Difference of light output ratios that the rounding of small values explains.
 const SMALL_RATIO: f64 = 0.01;
-/// Maximum difference between two measurements of one plane, relative to the largest intensity.
+/// Maximum difference between two measurements of the same plane, relative to the largest intensity.
 const SAME_PLANE: f64 = 0.02;
-/// Difference of shares of the flux that rounding to whole percents and steps explains.
+/// Difference of shares of the flux that rounding to whole percents and angular steps explain.
 const SAME_SHARE: f64 = 0.05;
 /// Minimum share of the lamps' flux that leaves a luminaire. Chosen: projectors with gobos give a tenth.
 const MIN_OUTPUT: f64 = 0.1;
-/// Maximum flux per area of an opening. Chosen: bare LED arrays give up to 1e8. \[lm/m²\]
+/// Maximum luminous flux per area of a luminaire's opening. Chosen: bare LED arrays give up to 1e8. \[lm/m²\]
 const MAX_EXITANCE: f64 = 1e8;
-/// Minimum flux per area of an opening longer than [`LARGE`]. Chosen: daylight apertures that are so dark are not so
-/// large. \[lm/m²\]
+/// Minimum luminous flux per area of an opening longer than [`LARGE`]. Chosen: daylight apertures with less are not
+/// that large. \[lm/m²\]
 const MIN_EXITANCE: f64 = 1.0;
-/// Length from which an opening is large for a luminaire. Chosen: no continuous row is one luminaire of this length.
-/// \[m\]
+/// Length from which an opening counts as unusually large for a luminaire. Chosen: no continuous row is one luminaire
+/// of this length. \[m\]
 const LARGE: f64 = 50.0;
-/// Maximum step between planes where others are closer together; the standards have 15° to 22.5°. \[°\]
+/// Maximum step between two planes if others are closer together; the standards use 15° to 22.5°. \[°\]
 const WIDE_STEP: f64 = 45.0;
-/// Ratio of a gap to the other steps between planes, above which it is reported.
+/// Ratio of a step between planes to the other steps above which it is reported as a gap.
 const WIDER: f64 = 1.5;
 
-/// Data of a file about its light, beside the intensity table.
+/// Photometric data that a file states beside the intensity table, with their lines.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Stated {
-    /// Flux of the lamps as they burn in the luminaire. \[lm\]
+    /// Luminous flux of the lamps in operation in the luminaire; `None` if it is not stated. \[lm\]
     pub lamps: Option<f64>,
-    /// Line of the lamps' flux.
+    /// Line number of the lamps' flux, from 1.
     pub lamps_line: usize,
-    /// Light output ratio; `None` where it is not stated.
+    /// Light output ratio, flux of the luminaire over that of its lamps; `None` if it is not stated.
     pub output_ratio: Option<f64>,
-    /// Share of the flux that goes down, with its line; `None` where it is not stated.
+    /// Downward share of the flux, 0 … 1, and its line number; `None` if it is not stated.
     pub downward: Option<(f64, usize)>,
-    /// Line of a size of the luminous opening.
+    /// Line number of the sizes of the luminous opening, from 1.
     pub opening_line: usize,
     /// Whether the table is in candela per 1000 lm of the lamps.
     pub is_per_klm: bool,
 }
 
-/// Checks all numbers of a luminaire. Intensities a little below 0, as differences of measurements are, count as 0.
+/// Checks all numbers of a luminaire and adds findings about them. Slightly negative intensities, measurement noise,
+/// are set to 0.
 ///
 /// # Errors
-/// Returns an error if an intensity, a flux, a size or an angle is one that no luminaire has.
+/// Returns an error if an intensity, a flux, a size or an angle is impossible for a luminaire.
 pub(super) fn checked(mut luminaire: Luminaire, stated: &Stated) -> Result<Luminaire, FormatError> {
     refuse_impossible(&luminaire)?;
     let below = luminaire.intensity.iter().filter(|cd| **cd < 0.0).count();
@@ -127,7 +128,8 @@ fn refuse_impossible(luminaire: &Luminaire) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Returns a finding on a step between planes that is much wider than the others: intensities within it are a guess.
+/// Returns a finding on a step between planes that is much wider than the others, so that the intensities within it are
+/// uncertain.
 fn gap_of_planes(luminaire: &Luminaire) -> Option<Finding> {
     let c = &luminaire.c_deg;
     if luminaire.photometry != Photometry::C || c.len() < 3 {
@@ -161,7 +163,7 @@ fn gap_of_planes(luminaire: &Luminaire) -> Option<Finding> {
     })
 }
 
-/// Returns a finding on angles in a plane that end where no format lets them end: there may be light beyond, missing in
+/// Returns a finding if the angles in the planes end where the formats do not allow it: light beyond may be missing in
 /// the file.
 fn gap_of_angles(luminaire: &Luminaire) -> Option<Finding> {
     let is_one_of = |angle: f64, allowed: &[f64]| allowed.iter().any(|one| same_angle(*one, angle));
@@ -230,7 +232,7 @@ fn flux_of_lamps(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     })
 }
 
-/// Returns a finding if the downward share of the flux contradicts the stated one.
+/// Returns a finding if the downward share of the table's flux contradicts the stated one.
 fn downward_share(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     let (known, line) = stated.downward?;
     let flux = luminaire.flux();
@@ -248,7 +250,8 @@ fn downward_share(luminaire: &Luminaire, stated: &Stated) -> Option<Finding> {
     })
 }
 
-/// Returns a finding if an opening is far too small or too large for the flux: mostly because of another unit.
+/// Returns a finding if the opening is far too small or too large for the flux, mostly because its sizes are in another
+/// unit. `line`: line number of the sizes.
 fn size_for_flux(luminaire: &Luminaire, line: usize) -> Option<Finding> {
     let (opening, flux) = (luminaire.opening, luminaire.flux());
     let area = opening.largest_face();
@@ -278,7 +281,8 @@ fn size_for_flux(luminaire: &Luminaire, line: usize) -> Option<Finding> {
     Some(Finding::warning("opening-contradicts-flux", message))
 }
 
-/// Returns a finding if the plane that closes the turn differs from the first one. `table`: intensities plane by plane.
+/// Returns a finding if the plane at 360° differs from that at 0°. `c_deg`: angles of the planes \[°\], `table`:
+/// intensities, plane by plane.
 pub(super) fn closing_plane(c_deg: &[f64], table: &[f64]) -> Option<Finding> {
     let (planes, angles) = (c_deg.len(), table.len() / c_deg.len());
     if planes < 2 || !same_angle(c_deg[planes - 1], c_deg[0] + 360.0) {
@@ -299,8 +303,8 @@ pub(super) fn closing_plane(c_deg: &[f64], table: &[f64]) -> Option<Finding> {
     })
 }
 
-/// Returns a finding on numbers after the last one that the counts require. `due`: number of values required; `words`:
-/// a text with the counts.
+/// Returns a finding on superfluous numbers at the end of a file. `found`: number of values found, `due`: number
+/// required by the counts, `line`: line number of the first superfluous one, `words`: text that states the counts.
 pub(super) fn surplus(found: usize, due: usize, line: usize, words: &str) -> Finding {
     let message = format!(
         "line {line}: {found} intensities where {due} are due ({words}); the {} after them are not used",

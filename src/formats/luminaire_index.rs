@@ -1,5 +1,5 @@
-//! Index of luminaire files (`.index.csv`): position, size and flux of each file, and the direct beam that it leaves to
-//! the host program.
+//! Index of luminaire files (`.index.csv`): position, size and flux of each file, and the undeviated sunbeam that the
+//! lighting program has to compute itself.
 //!
 //! Columns by name, in any order: `file,x,y,z,width,height,flux_lm` are required, `file` relative to the index, the
 //! tile's centre in room axes \[m\], its size along x and along z (façade) or y (roof) \[m\]. Written too:
@@ -20,37 +20,39 @@ use crate::compute::limits;
 use glam::DVec3;
 use std::collections::HashMap;
 
-/// Undeviated beam that a file leaves to the host program.
+/// Undeviated beam of sunlight that is not contained in a luminaire file: the lighting program has to compute it
+/// itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeparateBeam {
-    /// Flux through the tile. \[lm\]
+    /// Luminous flux of the beam through the file's part of the aperture. \[lm\]
     pub flux: f64,
-    /// Direction in which the beam travels, room axes, a unit vector.
+    /// Unit vector in which the beam travels, in the room's axes.
     pub direction: DVec3,
-    /// Illuminance on a plane perpendicular to the beam. \[lx\]
+    /// Illuminance by the beam on a plane perpendicular to it. \[lx\]
     pub normal: f64,
 }
 
-/// Row of the index: one luminaire file.
+/// Row of the index: one luminaire file with its position, size and flux.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Path of the file, relative to the index.
+    /// Path of the luminaire file, relative to the index.
     pub file: String,
-    /// Centre of the luminous area, room axes. \[m\]
+    /// Centre of the luminous area, in the room's axes. \[m\]
     pub centre: DVec3,
-    /// Size along x, and along z (façade) or y (roof). \[m\]
+    /// Size of the luminous area along x, and along z (façade) or y (roof), in the room's axes. \[m\]
     pub size: [f64; 2],
-    /// Flux of the file. \[lm\]
+    /// Luminous flux of the file. \[lm\]
     pub flux: f64,
-    /// Flux of the sun's beams in the file, widened; part of the flux of the file. \[lm\]
+    /// Part of the file's luminous flux that is in widened sunbeams (direct or redirected). \[lm\]
     pub beam: f64,
-    /// Surface with the luminous area, façade or roof; `None`: not specified.
+    /// Surface of the room that contains the luminous area, façade or roof; `None`: not specified.
     pub surface: Option<Surface>,
-    /// Orientation of the file's planes; `None`: not specified.
+    /// Orientation of the file's C planes: for a luminaire mounted in the aperture, or pointing down; `None`: not
+    /// specified.
     pub aim: Option<Aim>,
-    /// Undeviated beam that is left to the host program.
+    /// Undeviated beam of sunlight that the lighting program has to compute itself; `None` if there is none.
     pub separate_beam: Option<SeparateBeam>,
-    /// Name of the member of a series; empty for a single set.
+    /// Name of the member of a series (e.g. of times) that the file belongs to; empty without a series.
     pub set: String,
 }
 
@@ -59,10 +61,10 @@ const HEADER: &str =
 
 /// Maximum absolute value of lengths and coordinates. \[m\]
 const LONGEST: f64 = 1e6;
-/// Minimum flux of an undeviated beam; a smaller one is dropped. \[lm\]
+/// Minimum luminous flux of an undeviated beam; weaker ones are left out. \[lm\]
 const MIN_BEAM_FLUX: f64 = 1e-4;
 
-/// Returns the text of an index.
+/// Returns an index of luminaire files as CSV text.
 pub fn write(rows: &[Row]) -> Vec<u8> {
     let mut text = format!("{HEADER}\r\n");
     for row in rows {
@@ -99,7 +101,7 @@ fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\r', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Reads an index.
+/// Reads an index of luminaire files.
 ///
 /// # Errors
 /// Returns an error with the line if a required column or number is missing, a size is not valid, or a word is unknown.

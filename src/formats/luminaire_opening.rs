@@ -1,6 +1,6 @@
-//! Luminous opening of a luminaire: its shape, its size, and how the two formats mark round shapes.
+//! Luminous opening of a luminaire: shape and size, and their notation in EULUMDAT and IES files.
 
-/// Shape of a luminous opening.
+/// Shape of the luminous opening of a luminaire.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Shape {
     /// Rectangle, or box with luminous sides; a point without size.
@@ -10,14 +10,14 @@ pub enum Shape {
     Round,
     /// Sphere or ellipsoid.
     Ellipsoid,
-    /// Horizontal cylinder along the C0–C180 plane; a vertical disc without length.
+    /// Horizontal cylinder whose axis lies in the C0–C180 plane; with length 0 a vertical disc.
     CylinderAlongC0,
-    /// Horizontal cylinder along the C90–C270 plane; a vertical disc without length.
+    /// Horizontal cylinder whose axis lies in the C90–C270 plane; with length 0 a vertical disc.
     CylinderAlongC90,
 }
 
 impl Shape {
-    /// Returns the stable key for files and other programs.
+    /// Returns the key of the shape in files and JSON.
     pub const fn key(self) -> &'static str {
         match self {
             Self::Rectangular => "rectangular",
@@ -29,21 +29,21 @@ impl Shape {
     }
 }
 
-/// Size and shape of the luminous opening. Sizes are 0 or more. \[m\]
+/// Size and shape of the luminous opening of a luminaire. Sizes are 0 or more. \[m\]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Opening {
-    /// Shape within the three sizes.
+    /// Shape of the opening, bounded by the three sizes.
     pub shape: Shape,
-    /// Size along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT).
+    /// Size along the C0–C180 plane ("length" of LM-63, "width" of EULUMDAT). \[m\]
     pub along_c0: f64,
-    /// Size along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT).
+    /// Size along the C90–C270 plane ("width" of LM-63, "length" of EULUMDAT). \[m\]
     pub along_c90: f64,
-    /// Vertical size.
+    /// Vertical size of the opening. \[m\]
     pub height: f64,
 }
 
 impl Opening {
-    /// Creates a rectangle or box.
+    /// Creates a rectangular opening, or a box, of the given sizes \[m\].
     pub const fn rectangular(along_c0: f64, along_c90: f64, height: f64) -> Self {
         Self { shape: Shape::Rectangular, along_c0, along_c90, height }
     }
@@ -78,7 +78,8 @@ impl Opening {
         Self { shape, along_c0: length, along_c90: width, height }
     }
 
-    /// Returns width, length and height as LM-63-2002 and later editions mark them. \[m\]
+    /// Returns width, length and height of the opening in the notation of LM-63-2002 and later editions, negative where
+    /// they mark round shapes. \[m\]
     pub(super) fn to_lm63(self) -> [f64; 3] {
         let (width, length, height) = (self.along_c90, self.along_c0, self.height);
         match self.shape {
@@ -95,7 +96,7 @@ impl Opening {
         self.shape == Shape::Round && self.along_c0 == self.along_c90
     }
 
-    /// Returns the area of the largest of its three faces, as that of a rectangle. \[m²\]
+    /// Returns the area of the largest face of the box that bounds the opening. \[m²\]
     pub fn largest_face(&self) -> f64 {
         let (a, b, c) = (self.along_c0, self.along_c90, self.height);
         (a * b).max(a * c).max(b * c)

@@ -1,22 +1,21 @@
-//! Angles of photometric tables: rising lists, and the planes of the full turn that follow from mirror images of a
-//! part.
+//! Angles of photometric tables: checks of rising lists, and planes of the full turn from the mirror images of stored
+//! ones.
 
 use super::FormatError;
 use super::luminaire_text::at_line;
 
-/// Difference below which angles are equal once written, with four decimals. \[°\]
+/// Difference below which two angles are equal when written with four decimals. \[°\]
 pub(super) const CLOSEST: f64 = 2e-4;
 
-/// Distance from the end of the turn below which a plane is the first one, apart from rounding; one further away would
-/// be written as the first one and would not be a separate plane. \[°\]
+/// Distance from 360° below which a plane counts as that at 0° (rounding). \[°\]
 const SAME_PLANE: f64 = 1e-6;
 
-/// Whether two angles are the same in a file. \[°\]
+/// Whether two angles are equal when written in a file. \[°\]
 pub(super) fn same_angle(a: f64, b: f64) -> bool {
     (a - b).abs() < CLOSEST
 }
 
-/// Vertical planes of symmetry of a distribution.
+/// Vertical planes of symmetry of an intensity distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Mirrors {
     None,
@@ -32,12 +31,13 @@ pub(super) enum Mirrors {
 pub(super) struct Turn {
     /// Angles of the planes, from 0° to below 360°, rising. \[°\]
     pub c_deg: Vec<f64>,
+    /// Index of the stored plane that each plane of `c_deg` copies.
     pub source: Vec<usize>,
 }
 
 impl Turn {
-    /// Creates the turn from the stored planes \[°\] and their mirror images, sorted by angle. A plane at 360° is the
-    /// one at 0°; a single plane represents all and is the one at 0°.
+    /// Creates the planes of the full turn from the stored ones \[°\] and their mirror images, sorted by angle. A plane
+    /// at 360° counts as that at 0°; a single plane represents all and is put at 0°.
     pub fn new(stored: &[f64], mirrors: Mirrors) -> Self {
         if stored.len() == 1 {
             return Self { c_deg: vec![0.0], source: vec![0] };
@@ -63,7 +63,8 @@ impl Turn {
     }
 }
 
-/// Returns an error unless the angles rise by steps that files can distinguish.
+/// Checks that the angles rise by steps that files can distinguish; returns an error otherwise. `line`, `name`:
+/// position and name of the list for the message.
 pub(super) fn check_rising(angles: &[f64], line: usize, name: &str) -> Result<(), FormatError> {
     match angles.windows(2).find(|pair| pair[1] - pair[0] < CLOSEST) {
         Some(pair) => Err(at_line(

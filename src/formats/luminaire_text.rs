@@ -1,16 +1,17 @@
-//! Text of luminaire files: common encodings and line ends, numbers as programs write them, ASCII for writing.
+//! Text of luminaire files: decoding of common encodings and line ends, parsing of numbers, conversion to ASCII for
+//! writing.
 
 use super::encoding::{Encoding, NotText, any_text, is_web_page, not_too_long};
 use super::{FormatError, Location};
 use crate::compute::btdf::Finding;
 use crate::texts::{ascii_words, composed};
 
-/// Length from which a text without any line break must have lost its line breaks. Chosen: no first line alone is as
-/// long, and the headers alone are longer. \[characters\]
+/// Length from which a text without any line break is assumed to have lost its line breaks. Chosen: no first line alone
+/// is as long, and the headers alone are longer. \[characters\]
 const LOST_BREAKS: usize = 200;
 
-/// Decodes a file in UTF-8, Windows-1252 or UTF-16, with a finding; without a byte-order mark, lines ended by a line
-/// feed.
+/// Decodes a luminaire file in UTF-8, Windows-1252 or UTF-16, with a finding on unusual encodings; the result has no
+/// byte-order mark, and its lines end with a line feed.
 ///
 /// # Errors
 /// Returns an error if the text is too long, is a web page, or is one long line.
@@ -37,8 +38,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(String, Vec<Finding>), FormatError
     Ok((text, finding.into_iter().collect()))
 }
 
-/// Returns the text with line feeds in place of CR LF and of the lone carriage returns of old Macs. Carriage returns
-/// beside a line feed do not add a line.
+/// Returns the text with every line end (CR LF, or the lone CR of old Macs) replaced by a line feed.
 fn with_line_feeds(text: &str) -> String {
     if !text.contains('\n') {
         return text.replace('\r', "\n");
@@ -47,7 +47,7 @@ fn with_line_feeds(text: &str) -> String {
     text.split('\n').map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Returns a finite number, its exponent after E or, as Fortran writes it, D; `None` for other text.
+/// Parses a finite number, with an exponent after E or D (Fortran); `None` for other text.
 pub(super) fn parse_number(text: &str) -> Option<f64> {
     let value = text.parse::<f64>().ok().or_else(|| {
         // Only digits stand around the D: "nand" is no number.
@@ -57,8 +57,8 @@ pub(super) fn parse_number(text: &str) -> Option<f64> {
     value.filter(|value: &f64| value.is_finite())
 }
 
-/// Returns a text in printable ASCII, which every reader accepts: umlauts spelt out as in German, other letters without
-/// marks or by their sound, line breaks as blanks.
+/// Returns a text in printable ASCII, which every reader accepts: umlauts as two letters, other letters without
+/// accents, line breaks as blanks.
 pub(super) fn ascii(text: &str) -> String {
     let mut spelt = String::with_capacity(text.len());
     for letter in composed(text).chars() {
@@ -78,12 +78,12 @@ pub(super) fn ascii(text: &str) -> String {
     ascii_words(&spelt)
 }
 
-/// Returns the error of a reader at a line, counted from 1.
+/// Creates the error of a reader at a line, counted from 1.
 pub(super) fn at_line(line: usize, found: impl Into<String>, expected: impl Into<String>) -> FormatError {
     FormatError::new(Location::line(line), found, expected)
 }
 
-/// Returns a number with up to `decimals` decimals, without trailing zeros or "-0".
+/// Returns a number as text with up to `decimals` decimals, without trailing zeros or "-0".
 pub(super) fn number(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };

@@ -1,7 +1,7 @@
-//! Exchange packages (`.cfsp`): products of the catalogue in one zip file.
+//! Exchange packages (`.cfsp`): products of the catalogue with their datasets in one zip file.
 //!
-//! `manifest.json` lists the products; `datasets/HASH.bin` holds each dataset in its compact binary form, named by the
-//! BLAKE3 hash of its bytes, which is checked on reading.
+//! `manifest.json` lists the products; `datasets/HASH.bin` contains one dataset each in the compact binary format,
+//! named by the BLAKE3 hash of its bytes, which is checked on reading.
 
 use super::dataset_blob::content_hash;
 use super::encoding::{NotText, is_web_page};
@@ -12,30 +12,30 @@ use std::io::{Cursor, Read, Write};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
-/// Format name in the manifest, without its version.
+/// Name of the format in the manifest, without its version.
 const FORMAT: &str = "cfs-package";
-/// Newest version that is read. The version written is the oldest that can hold the content: 2 where a product has a
-/// licence, else 1.
+/// Newest version of the package format that is read. The version that is written is the oldest that can contain the
+/// products: 2 where a product has a licence, else 1.
 pub const VERSION: u32 = 2;
 /// Maximum size of the manifest. \[bytes\]
 const MOST_MANIFEST: u64 = limits::MANIFEST_BYTES;
-/// Maximum size of a dataset. \[bytes\]
+/// Maximum size of a dataset in a package. \[bytes\]
 const MOST_DATASET: u64 = limits::ENTRY_BYTES;
-/// Maximum size of all datasets together. \[bytes\]
+/// Maximum size of all datasets of a package together. \[bytes\]
 const MOST_TOTAL: u64 = limits::PACKAGE_BYTES;
-/// Maximum number of entries in the zip file.
+/// Maximum number of entries in a package's zip file.
 const MOST_ENTRIES: usize = limits::ARCHIVE_ENTRIES;
 
-/// Content of a package.
+/// Content of an exchange package: products and their datasets.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Package {
     /// Products of the package.
     pub products: Vec<PackageProduct>,
-    /// Datasets in binary form by their hash.
+    /// Datasets in the compact binary format, by the BLAKE3 hash of their bytes.
     pub datasets: BTreeMap<String, Vec<u8>>,
 }
 
-/// Format name only: the manifest of a newer version may have any other keys.
+/// Name of the format in a manifest, read first, since the manifest of a newer version may have any other keys.
 #[derive(Deserialize)]
 struct Head {
     format: String,
@@ -47,35 +47,35 @@ struct Manifest {
     products: Vec<PackageProduct>,
 }
 
-/// Product in the form of the manifest.
+/// Product as the manifest of a package describes it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageProduct {
-    /// Key in the catalogue from which it was exported.
+    /// Key of the product in the catalogue from which it was exported.
     pub key: String,
-    /// Name.
+    /// Name of the product.
     pub name: String,
-    /// Maker; may be empty.
+    /// Maker of the product; may be empty.
     #[serde(default)]
     pub manufacturer: String,
-    /// Kind, e.g. `venetian`.
+    /// Kind of system, e.g. `venetian`.
     #[serde(default)]
     pub kind: String,
-    /// Free text.
+    /// Description of the product in free text.
     #[serde(default)]
     pub description: String,
-    /// Source of the data.
+    /// Provenance of the product's data.
     #[serde(default)]
     pub provenance: PackageProvenance,
     /// Licence of the data; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub license: String,
-    /// Tags to find the product by.
+    /// Tags by which the product is found in the catalogue.
     #[serde(default)]
     pub tags: Vec<String>,
-    /// States in order, at least one.
+    /// States of the product in their order; at least one.
     pub states: Vec<PackageState>,
-    /// Points of the control curve.
+    /// Points of the product's control curve; empty without one.
     #[serde(default)]
     pub control_curve: Vec<PackageCurvePoint>,
     /// Text of the system description from which the data were computed; empty for other products.
@@ -83,83 +83,83 @@ pub struct PackageProduct {
     pub system: String,
 }
 
-/// Source of the data in the manifest.
+/// Provenance of a product's data, in the manifest of a package.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PackageProvenance {
-    /// `measured`, `computed` or `unknown`.
+    /// Origin of the data: `measured`, `computed` or `unknown`.
     pub origin: String,
-    /// Author of the data.
+    /// Author of the measurement or computation.
     pub author: String,
-    /// Method: device or formula.
+    /// Method of the measurement or computation: device or formula.
     pub method: String,
-    /// Date as the source gives it.
+    /// Date of the measurement or computation, as the source states it.
     pub date: String,
     /// Name of the file from which the data were read.
     pub source_file: String,
-    /// BLAKE3 hash of that file.
+    /// BLAKE3 hash of the file from which the data were read.
     pub source_hash: String,
-    /// Face of the system that looks into the room.
+    /// Name of the face of the system that looks into the room.
     pub inside_face: String,
 }
 
-/// State in the manifest.
+/// State of a product, in the manifest of a package.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageState {
-    /// Key; empty for the only state of a system without states.
+    /// Key of the state; empty for a product without states.
     pub key: String,
-    /// Label of the state for people.
+    /// Label of the state for display.
     #[serde(default)]
     pub label: String,
-    /// Number of the state: an angle or another number.
+    /// Value that the state sets, e.g. the slat angle \[°\]; `None` if it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub value: Option<f64>,
-    /// Hash of its dataset.
+    /// BLAKE3 hash of the state's dataset, see [`Package::datasets`].
     pub dataset: String,
 }
 
-/// Point of a control curve in the manifest.
+/// Point of a product's control curve, in the manifest of a package.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PackageCurvePoint {
     /// Profile angle of the sun. \[°\]
     pub profile_angle: f64,
-    /// Number of the state, e.g. the slat angle. \[°\]
+    /// Demanded value at this profile angle, in the unit of the states' values, e.g. slat angle \[°\].
     pub value: f64,
 }
 
-/// Error of reading or writing a package.
+/// Error in reading or writing an exchange package.
 #[derive(Debug, thiserror::Error)]
 pub enum PackageError {
     /// Bytes that are not a zip file, or are damaged.
     #[error("not a readable package: {0}")]
     Zip(#[from] zip::result::ZipError),
-    /// Entry that could not be read or written.
+    /// Entry of the zip file that could not be read or written.
     #[error("package entry {entry}: {source}")]
     Entry {
         /// Name of the entry.
         entry: String,
-        /// Error of the entry.
+        /// Error in reading or writing the entry.
         source: std::io::Error,
     },
     /// Manifest that is not valid.
     #[error("package manifest.json: {0}")]
     Manifest(#[from] serde_json::Error),
-    /// Package written by a newer program.
+    /// Package of a newer version of the format: that version.
     #[error("the package was written by a newer version of cfs ({FORMAT} {0}; this program reads up to {VERSION})")]
     Newer(u32),
-    /// Content that is not valid.
+    /// Content of the package that is not valid: description of the problem.
     #[error("package: {0}")]
     Content(String),
 }
 
-/// Whether the bytes are a zip file, as packages are.
+/// Whether the bytes are a zip file, which all packages are (other archives, too).
 pub fn looks_like_package(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06")
 }
 
-/// Returns the bytes of a package. The same content always gives the same bytes.
+/// Returns an exchange package as bytes. Equal content always gives equal bytes.
 pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     // A fixed time in the entries: packages of the same content are the same file.
@@ -179,10 +179,10 @@ pub fn write(package: &Package) -> Result<Vec<u8>, PackageError> {
     Ok(zip.finish()?.into_inner())
 }
 
-/// First bytes of every package, as of every zip archive.
+/// First bytes of every package, and of every other zip archive.
 pub(crate) const MAGIC: &[u8] = b"PK\x03\x04";
 
-/// Reads a package and checks every dataset against its hash. Entries nothing refers to are not read.
+/// Reads an exchange package and checks every dataset against its hash. Entries that no product refers to are not read.
 pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
     if is_web_page(bytes) {
         return Err(PackageError::Content(NotText::WEB_PAGE.to_string()));
@@ -229,7 +229,7 @@ pub fn read(bytes: &[u8]) -> Result<Package, PackageError> {
     Ok(package)
 }
 
-/// Checks the limits of a product before its data are read.
+/// Checks that a product is within the limits of the format, before its data are read.
 fn judge(product: &PackageProduct) -> Result<(), PackageError> {
     let name: String = product.key.chars().take(80).collect();
     let refuse = |what: String| Err(PackageError::Content(format!("product \"{name}\" has {what}")));
@@ -247,7 +247,7 @@ fn judge(product: &PackageProduct) -> Result<(), PackageError> {
     }
 }
 
-/// Returns one entry, of at most `most` bytes whatever its header says.
+/// Reads one entry of the zip file, of at most `most` bytes whatever its header states.
 fn entry(zip: &mut ZipArchive<Cursor<&[u8]>>, name: &str, most: u64) -> Result<Vec<u8>, PackageError> {
     let file = zip.by_name(name).map_err(|error| match error {
         zip::result::ZipError::FileNotFound => PackageError::Content(format!("{name} is missing")),

@@ -11,16 +11,16 @@ use super::location::excerpt;
 use crate::compute::limits;
 use crate::compute::sky::Scan;
 
-/// Error of reading a sky scan.
+/// Error in reading a sky scan.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ScanError {
     /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Text longer than any scan.
+    /// Text that is too long for a sky scan.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// Field that is not a luminance.
+    /// Field that is not a luminance (a finite number of 0 or more).
     #[error("line {line}: \"{found}\" is not a luminance (expected a number from 0 to {most:e} cd/m²)", most = limits::LUMINANCE)]
     Number {
         /// Line number, from 1.
@@ -28,18 +28,18 @@ pub enum ScanError {
         /// Text of the field.
         found: String,
     },
-    /// Header without a known column.
+    /// Header of a table that lacks a known column of luminances.
     #[error("line {line}: no column L_mean_cdm2, luminance or L_centre_cdm2 in the header")]
     Header {
         /// Line number, from 1.
         line: usize,
     },
-    /// Wrong number of values.
+    /// Number of values that is not 145.
     #[error("{0} luminances (expected the 145 of Tregenza's lattice)")]
     Count(usize),
 }
 
-/// Reads 145 luminances. \[cd/m²\]
+/// Reads a sky scan: the luminances of the 145 Tregenza patches. \[cd/m²\]
 pub fn read_scan(bytes: &[u8]) -> Result<Scan, ScanError> {
     let text = decode(not_too_long(bytes)?)?;
     let text = with_decimal_points(&text);

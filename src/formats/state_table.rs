@@ -1,4 +1,4 @@
-//! States of a moving system over time, as building simulations and loggers write them: CSV with the columns `time` and
+//! Table of a device's states over time, e.g. from a building simulation or a logger: CSV with the columns `time` and
 //! `state`.
 //!
 //! ```text
@@ -7,9 +7,9 @@
 //! 2005-01-01T10:30:00,45
 //! ```
 //!
-//! Times are local standard time, rising; each state holds until the next row. Month, day and time of day count: years
-//! of typical weather are put together from many. Further columns are not read, nor are decimal seconds and time zones.
-//! Semicolons may stand between the columns.
+//! Times are local standard time, rising; each state applies until the next row. The year is ignored, since typical
+//! weather years are composed of several. Further columns are not read, nor are decimal seconds and time zones. Columns
+//! may be separated by semicolons.
 
 use super::decimal_comma::with_decimal_points;
 use super::encoding::{NotText, TooLong, decode, not_too_long};
@@ -17,44 +17,44 @@ use super::location::excerpt;
 use crate::compute::limits::WEATHER_RECORDS;
 use jiff::civil::{Date, DateTime};
 
-/// Row of the table.
+/// Row of a table of states: time from which a state applies.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StateRow {
     /// Line number, from 1.
     pub line: usize,
-    /// Time since the beginning of the year, see [`of_year`]. \[s\]
+    /// Time since the beginning of the year from which the state applies, see [`of_year`]. \[s\]
     pub of_year: f64,
     /// Key of the state; never empty.
     pub state: String,
 }
 
-/// Error of reading a table of states.
+/// Error in reading a table of states.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StateTableError {
     /// Bytes that are not text.
     #[error(transparent)]
     NotText(#[from] NotText),
-    /// Text longer than any such table.
+    /// Text that is too long for a table of states.
     #[error(transparent)]
     TooLong(#[from] TooLong),
-    /// Header without the required columns.
+    /// Header that lacks the required columns.
     #[error("line 1: the header needs the columns time and state")]
     Header,
-    /// Row that is not valid.
+    /// Row of the table that is not valid.
     #[error("line {line}: {message}")]
     Row {
         /// Line number, from 1.
         line: usize,
-        /// Message: what is wrong, and what was expected.
+        /// Description of the problem, and of what was expected.
         message: String,
     },
-    /// Number of rows that is 0 or too large.
+    /// Number of rows that is 0 or exceeds the maximum.
     #[error("{0} rows (expected 1 to {WEATHER_RECORDS})")]
     Count(usize),
 }
 
-/// Returns the time since the beginning of the year, in a calendar of 366 days in which every day has one place
-/// whatever the year. \[s\]
+/// Returns the time since the beginning of the year, in a calendar of 366 days, in which every date has the same
+/// position in all years. \[s\]
 pub fn of_year(time: DateTime) -> f64 {
     // A leap year has every day that any year has.
     let day = Date::new(2024, time.month(), time.day()).map_or(0, |date| date.day_of_year());

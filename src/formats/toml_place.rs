@@ -4,7 +4,7 @@ use super::location::short;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// Error at a place in TOML text.
+/// Error in a TOML text with its position: line, column and key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TomlPlace {
     /// Line number, from 1.
@@ -13,12 +13,12 @@ pub struct TomlPlace {
     pub column: usize,
     /// Full name of the key, e.g. `aperture[1].size`; empty where the text is not valid TOML.
     pub key: String,
-    /// Message: what is wrong, and what was expected.
+    /// Description of the problem, and of what was expected.
     pub message: String,
 }
 
-/// Returns the place of an error. `first`: index of the first item of a list, as messages about such files count;
-/// `unit`: unit of the number under a key.
+/// Returns the error of a TOML parser with its position and key. `first`: number of the first item of a list in
+/// messages, 0 or 1; `unit` returns the unit of the number under a key, if it has one.
 pub fn place(
     text: &str,
     error: &toml::de::Error,
@@ -43,7 +43,7 @@ pub fn place(
     }
 }
 
-/// Returns a key without the indices of its lists.
+/// Returns a key without list indices, e.g. `aperture.size` from `aperture[1].size`.
 fn plain(key: &str) -> String {
     let mut depth = 0_usize;
     let mut name = String::new();
@@ -58,7 +58,7 @@ fn plain(key: &str) -> String {
     name
 }
 
-/// Returns serde's message in the terms of this program's fields.
+/// Returns the parser's message in words for users of the file.
 fn reworded(message: &str, unit: Option<&str>) -> String {
     let number = unit.map_or_else(|| "a number".to_owned(), |unit| format!("a number in {unit}"));
     let mut text = message.replace('\n', "; ");
@@ -83,7 +83,7 @@ fn reworded(message: &str, unit: Option<&str>) -> String {
     }
 }
 
-/// Follows a span to the innermost value that contains it.
+/// Finds the innermost value of a table that contains a span of the text, and extends `key` by its path.
 fn within(table: &DeTable<'_>, span: &std::ops::Range<usize>, first: usize, key: &mut String) {
     for (name, value) in table {
         if value.span().start <= span.start && span.end <= value.span().end || name.span() == *span {

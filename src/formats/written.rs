@@ -1,12 +1,12 @@
-//! Result of every writer of a dataset format.
+//! Result of writing a dataset file.
 
 use crate::compute::btdf::Finding;
 
-/// Written file, with findings on what was lost or changed.
+/// Content of a written dataset file, with findings on data that were lost or changed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Written {
     /// Bytes of the file.
     pub bytes: Vec<u8>,
-    /// Findings on resampling, derived blocks: whatever a reader of the new file would not see.
+    /// Findings on changes that a reader of the file would not see, e.g. resampling and derived functions.
     pub findings: Vec<Finding>,
 }

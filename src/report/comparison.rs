@@ -1,5 +1,5 @@
-//! Comparison chapter of a study: figures of the candidates with errors, the same tile of each on one scale, and the
-//! differences of each from the reference.
+//! Comparison chapter of a study report: figures of the candidates with their uncertainties, the same tile of each
+//! candidate on a common colour scale, and the differences of each from the reference.
 
 use super::ReportError;
 use super::pages::{Figure, Pages};
@@ -18,7 +18,8 @@ use crate::study::scene_file::SceneFile;
 use crate::study::subject::Subject;
 use crate::texts::compare as texts;
 
-/// Candidates of a study with the tile and the reference of their comparison.
+/// Candidates of a study (scenes with results), with the tile that is drawn for each and the reference of their
+/// differences.
 pub struct Comparison {
     /// Names and results of the candidates, in the order of the scene.
     pub candidates: Vec<(String, Subject)>,
@@ -29,7 +30,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// Computes the comparison of a scene's candidates, each by `of`; `None` where the scene has none.
+    /// Creates the comparison of the candidates that a scene lists; `of` computes the results of each. `None` if the
+    /// scene lists none.
     ///
     /// # Errors
     /// Returns the errors of `of`.
@@ -48,7 +50,7 @@ impl Comparison {
         Ok((!candidates.is_empty()).then_some(Self { candidates, tile, base }))
     }
 
-    /// Returns the rows of figures, as every table of the program has them.
+    /// Returns the figures of all candidates, one row per figure, as in every comparison table of the program.
     pub fn rows(&self) -> Vec<Row> {
         let facts: Vec<_> = self.candidates.iter().map(|(_, subject)| facts_of(subject)).collect();
         let mut rows = compare(FIGURES, &facts.iter().collect::<Vec<_>>());
@@ -56,13 +58,13 @@ impl Comparison {
         rows
     }
 
-    /// Returns the names, each with its number.
+    /// Returns the names of the candidates, each with its number.
     fn names(&self) -> Vec<String> {
         self.candidates.iter().enumerate().map(|(k, (name, _))| format!("{} {name}", k + 1)).collect()
     }
 }
 
-/// Writes the chapter.
+/// Adds the comparison chapter to the report's pages.
 ///
 /// # Errors
 /// Returns an error if a tile that has something to show cannot be drawn.
@@ -99,7 +101,7 @@ pub(super) fn chapter(pages: &mut Pages, comparison: &Comparison, inks: &Inks) -
     Ok(())
 }
 
-/// Adds pictures, two per row.
+/// Adds pictures to the pages, two per row.
 fn rows_of(pages: &mut Pages, mut figures: Vec<Figure>) {
     while !figures.is_empty() {
         let rest = figures.split_off(figures.len().min(2));
@@ -114,7 +116,7 @@ fn rows_of(pages: &mut Pages, mut figures: Vec<Figure>) {
     }
 }
 
-/// Returns the table with figures in rows and candidates by their numbers in columns.
+/// Returns the table of the comparison, with figures in rows and candidates, by their numbers, in columns.
 fn table(rows: &[Row], count: usize) -> Table {
     let column = |head: String, align| Column { head, align };
     let mut columns = vec![column(texts::FIGURE.into(), Align::Start)];
@@ -152,7 +154,8 @@ fn of_tile(comparison: &Comparison) -> TileKind {
     }
 }
 
-/// Returns the difference of one candidate from the reference; `None` where they have nothing in common.
+/// Returns the difference between the tiles of one candidate and of the reference; `None` if they have nothing in
+/// common.
 fn picture(tile: TileKind, one: &Subject, base: &Subject) -> Option<Picture> {
     if tile == TileKind::Room {
         let of = |subject: &Subject| {
@@ -226,7 +229,7 @@ fn signed(value: f64, unit: &str) -> String {
     format!("{sign}{} {unit}", number(value.abs(), 3)).trim_end().to_owned()
 }
 
-/// Returns a difference as a text.
+/// Returns mean and extremes of a difference as text.
 fn summary(picture: &Picture) -> String {
     let [name, unit] = picture.quantity();
     match picture {

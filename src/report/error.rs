@@ -1,20 +1,20 @@
-//! Errors of exporting pictures and reports.
+//! Errors in the export of pictures and reports.
 
 use crate::texts::{Text, export as texts};
 
-/// Error of an export.
+/// Error in the export of a picture or report.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReportError {
-    /// Tile that has nothing to show: its name, and the reason.
+    /// Tile that has nothing to show for the scene: its name, and the reason.
     #[error("{0}: {1}")]
     Nothing(Text, String),
-    /// Size that is not valid: the typed text, and the reason.
+    /// Size of a picture that is not valid: the typed text, and the reason.
     #[error("{}", texts::wrong_size(.0, .1))]
     Size(String, Text),
-    /// Tender text that is not a valid template: its line (from 1), and what is wrong.
+    /// Template of a tender text that is not valid: line number (from 1), and description of the problem.
     #[error("{}", texts::wrong_template(.0, .1))]
     Template(usize, String),
-    /// PDF that could not be made, with the reason.
+    /// PDF that could not be created: the reason.
     #[error("{}", texts::no_pdf(.0))]
     Pdf(String),
 }

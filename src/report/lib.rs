@@ -1,4 +1,5 @@
-//! Export of pictures of the tiles and of reports as PDF. Figures and pictures in, bytes out; no files, no window.
+//! Export of pictures of the tiles and of reports as PDF. Functions take results and return bytes; they use neither
+//! files nor the window.
 //!
 //! A tile's picture is a [`Drawing`](crate::drawing::Drawing) made from a [`Subject`](crate::study::subject::Subject),
 //! so that window and command line export the same, whatever the window's size and theme. A report is pages of such

@@ -1,5 +1,5 @@
-//! Pages that fill from the top: headings, paragraphs, figures, tables and pictures on one grid, with a running foot. A
-//! unit is a point of the paper (A4).
+//! Pages of a report, filled from the top: headings, paragraphs, figures, tables and pictures on one grid, with a
+//! running footer. Lengths are in points on A4 paper (1 pt = 1/72 inch).
 
 use super::picture::{PROGRAM, rule};
 use super::table::Table;
@@ -10,22 +10,22 @@ use crate::texts::export as texts;
 
 /// Size of an A4 page. \[pt\]
 const PAPER: [f64; 2] = [595.28, 841.89];
-/// Margins: left, top, right, bottom. \[pt\]
+/// Margins of a page: left, top, right, bottom. \[pt\]
 const MARGINS: [f64; 4] = [56.0, 56.0, 56.0, 64.0];
-/// Width between the margins. \[pt\]
+/// Width of a page between its margins. \[pt\]
 pub const WIDTH: f64 = PAPER[0] - MARGINS[0] - MARGINS[2];
-/// Font size of text. \[pt\]
+/// Font size of body text. \[pt\]
 pub const BODY: f64 = 8.8;
-/// Font size of captions and of the foot. \[pt\]
+/// Font size of captions and of the footer. \[pt\]
 const SMALL: f64 = 7.6;
 /// Font size of headings. \[pt\]
 const HEADING: f64 = 11.5;
 /// Font size of the title. \[pt\]
 const TITLE: f64 = 19.0;
-/// Gap between columns. \[pt\]
+/// Horizontal gap between columns. \[pt\]
 const GAP: f64 = 14.0;
 
-/// Picture with its caption.
+/// Picture of a report with its caption.
 pub struct Figure {
     /// Drawing of the picture.
     pub drawing: Drawing,
@@ -33,19 +33,20 @@ pub struct Figure {
     pub caption: String,
 }
 
-/// Pages that are being filled.
+/// Pages of a report while they are filled with content.
 pub struct Pages {
     done: Vec<Drawing>,
     page: Drawing,
-    /// Vertical position at which the next item begins. \[pt\]
+    /// Vertical position, from the top of the page, at which the next item begins. \[pt\]
     top: f64,
-    /// Title in the running foot.
+    /// Title in the running footer.
     title: String,
     inks: Inks,
 }
 
 impl Pages {
-    /// Creates the first page, with a kind ("Product sheet"), a title and a line under it.
+    /// Creates the first page of a report, with the kind of report (e.g. "Product sheet"), the title and a line of text
+    /// under it; `inks`: colours for screen or print.
     pub fn new(kind: &str, title: &str, under: &str, inks: &Inks) -> Self {
         let page = Drawing::new(PAPER[0], PAPER[1]);
         let title_of = format!("{kind} · {title}");
@@ -59,7 +60,7 @@ impl Pages {
         pages
     }
 
-    /// Returns the height that is left on the page. \[pt\]
+    /// Returns the height that is still free on the current page. \[pt\]
     fn left(&self) -> f64 {
         PAPER[1] - MARGINS[3] - self.top
     }
@@ -70,14 +71,14 @@ impl Pages {
         self.top = MARGINS[1];
     }
 
-    /// Begins a new page if less than `height` is left, unless the page is still empty. \[pt\]
+    /// Begins a new page if less than `height` \[pt\] is free on the current one, unless that is still empty.
     pub fn need(&mut self, height: f64) {
         if self.left() < height && self.top > MARGINS[1] {
             self.turn();
         }
     }
 
-    /// Adds free space. \[pt\]
+    /// Adds vertical space of the given height. \[pt\]
     pub fn gap(&mut self, height: f64) {
         self.top += height;
     }
@@ -95,7 +96,7 @@ impl Pages {
         }
     }
 
-    /// Adds a heading; the next item begins on the same page.
+    /// Adds a heading, on the same page as the next item.
     pub fn heading(&mut self, text: &str) {
         self.need(104.0);
         if self.top > MARGINS[1] {
@@ -108,19 +109,19 @@ impl Pages {
         self.top += 4.0;
     }
 
-    /// Adds a paragraph over the whole width.
+    /// Adds a paragraph over the whole width between the margins.
     pub fn paragraph(&mut self, text: &str) {
         self.text(text, BODY, self.inks.ink);
         self.top += 3.0;
     }
 
-    /// Adds a paragraph in smaller and paler letters.
+    /// Adds a paragraph in smaller, grey letters.
     pub fn note(&mut self, text: &str) {
         self.text(text, SMALL, self.inks.weak);
         self.top += 2.0;
     }
 
-    /// Adds names with their values, in two columns that are filled in turn; long texts take the whole width.
+    /// Adds pairs of name and value in two columns that are filled alternately; long texts take the whole width.
     pub fn figures(&mut self, list: &[(String, String)]) {
         const NAME: f64 = 118.0;
         let half = 0.5 * (WIDTH - GAP);
@@ -161,7 +162,7 @@ impl Pages {
         self.top += high + 2.0;
     }
 
-    /// Adds a table; its head is repeated on every page.
+    /// Adds a table, whose head is repeated on every page.
     pub fn table(&mut self, table: &Table) {
         let widths = table.widths(BODY, GAP, WIDTH);
         let head = table.head(BODY, &widths);
@@ -210,7 +211,7 @@ impl Pages {
         self.top = start + count as f64 * LEADING * BODY + 3.0;
     }
 
-    /// Adds pictures side by side, each with its caption under it, none higher than `most`. \[pt\]
+    /// Adds pictures side by side, each with its caption under it and none higher than `most` \[pt\].
     pub fn pictures(&mut self, row: &[Figure], most: f64) {
         if row.is_empty() {
             return;
@@ -234,7 +235,7 @@ impl Pages {
         self.top = start + height + 8.0 + lines * LEADING * SMALL;
     }
 
-    /// Returns the pages with their feet.
+    /// Returns the finished pages with their footers.
     pub fn finish(mut self) -> Vec<Drawing> {
         self.turn();
         let count = self.done.len();

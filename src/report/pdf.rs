@@ -1,4 +1,5 @@
-//! Pages of drawings as a PDF: text as text in the embedded font, lines and areas as vectors. A unit is a point.
+//! Conversion of pages (drawings) to a PDF: text as text in the embedded font, lines and areas as vectors. A unit of a
+//! drawing is one point (1/72 inch).
 
 use super::ReportError;
 use super::picture::PROGRAM;
@@ -15,10 +16,10 @@ use krilla::paint::{Fill, LineJoin, Stroke, StrokeDash};
 use krilla::surface::Surface;
 use krilla::text::{Font, TextDirection};
 
-/// Returns the pages as a PDF; the current language is stated as that of the document.
+/// Returns the pages as a PDF with the given title; the current language is stated as that of the document.
 ///
 /// # Errors
-/// Returns an error if the encoder refuses something.
+/// Returns an error if the PDF encoder fails.
 pub fn write(pages: &[Drawing], title: &str) -> Result<Vec<u8>, ReportError> {
     let wrong = |what: Text| ReportError::Pdf(what.into());
     let font = Font::new(DEJAVU.into(), 0).ok_or_else(|| wrong(texts::NO_FONT))?;
@@ -57,7 +58,7 @@ fn stroke([r, g, b]: Rgb, width: f64, dash: Option<[f64; 2]>) -> Stroke {
     }
 }
 
-/// Returns the path through points; `None` if it has no extent or a coordinate is not finite.
+/// Returns the PDF path through points; `None` if it has no extent or a coordinate is not finite.
 fn path(points: &[Place], closed: bool) -> Option<Path> {
     if !points.iter().flatten().all(|coordinate| coordinate.is_finite()) {
         return None;

@@ -1,4 +1,4 @@
-//! Pictures of tiles for export: the tile under a head and over a foot that identify it.
+//! Pictures of tiles for export: the tile between a header and a footer that identify scene and data.
 
 use super::error::ReportError;
 use super::size::Size;
@@ -13,38 +13,40 @@ use crate::study::scene_words::{place, sky, time};
 use crate::study::subject::Subject;
 use crate::texts::export as texts;
 
-/// Appearance of a picture.
+/// Appearance of an exported picture: size, colours, caption.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Look {
-    /// Size of the picture.
+    /// Size of the picture, in pixels or millimetres.
     pub size: Size,
-    /// Whether it is for printers: black lines that can be distinguished without colours.
+    /// Whether the picture is for black-and-white print, with lines that can be distinguished without colours.
     pub print: bool,
-    /// Whether product, place, moment, errors and origin are written around it.
+    /// Whether the picture has header and footer: product, location, date and time, uncertainty, origin of the data.
     pub caption: bool,
 }
 
 impl Look {
-    /// Returns the colours of the picture.
+    /// Returns the colours of the picture, for screen or print.
     pub const fn inks(&self) -> &'static Inks {
         if self.print { &Inks::PRINT } else { &Inks::LIGHT }
     }
 }
 
-/// Margin on all sides.
+/// Margin on all sides of a picture. \[drawing units\]
 const MARGIN: f64 = 14.0;
 
-/// Returns a text such as "Stuttgart, south, 21 Mar 12:00, clear (CIE 12)".
+/// Returns location, orientation, time and sky of a scene as text, e.g. "Stuttgart, south, 21 Mar 12:00, clear (CIE
+/// 12)".
 pub fn situation(scene: &SceneFile) -> String {
     let words = [place(scene), bearing_word(scene.site.azimuth).to_owned(), time(scene), sky(scene)];
     words.join(", ")
 }
 
-/// Source of the data in a line; the format where nothing else is known.
+/// Function for the origin of a system's data as one line of text; the file format where nothing else is known.
 pub struct Origin;
 
 impl Origin {
-    /// Returns a text such as "computed by ray tracing (A. Author, 2024)".
+    /// Returns the origin of the data of the subject's system as text, e.g. "computed by ray tracing (A. Author,
+    /// 2024)".
     pub fn words(subject: &Subject) -> String {
         let dataset = subject.dataset();
         let Some(product) = &subject.product else {
@@ -73,7 +75,7 @@ impl Origin {
 /// Name and version of the program.
 pub const PROGRAM: &str = concat!("cfs ", env!("CARGO_PKG_VERSION"));
 
-/// Returns a tile as a drawing of the requested size.
+/// Returns a tile, with the results of `subject`, as a drawing with the requested size and appearance.
 ///
 /// # Errors
 /// Returns an error if the tile has nothing to show for this subject.
@@ -118,7 +120,8 @@ pub fn picture(subject: &Subject, tile: TileKind, look: &Look) -> Result<Drawing
     Ok(drawing)
 }
 
-/// Returns the first lines of a text; the last ends in "…" where there would be more.
+/// Returns the first `most` lines of a text wrapped to the width `room`; the last one ends with "…" if more would
+/// follow.
 fn first_lines(text: &str, most: usize, room: f64) -> Vec<String> {
     let mut lines = wrapped(text, TEXT, room);
     if lines.len() > most {
@@ -128,7 +131,7 @@ fn first_lines(text: &str, most: usize, room: f64) -> Vec<String> {
     lines
 }
 
-/// Returns a thin line along a frame's upper edge.
+/// Returns a thin line along the upper edge of a frame.
 pub fn rule(frame: Frame, inks: &Inks) -> Shape {
     Shape::line([[frame.left, frame.top], [frame.right(), frame.top]], inks.grid, 0.8)
 }

@@ -1,4 +1,4 @@
-//! Product sheet, for makers: the system, its figures, pictures of its light distribution, the source of its data.
+//! Product sheet, for makers: system, figures, pictures of the light distribution, origin of the data.
 
 use super::pages::{Figure, Pages};
 use super::picture::Origin;
@@ -22,20 +22,20 @@ use crate::study::subject::Subject;
 use crate::texts::findings::words;
 use crate::texts::{Text, export as texts, fixed};
 
-/// Polar angles of the incident directions of the indicatrices, upwards from the normal. \[°\]
+/// Polar angles of the incident directions whose indicatrices are drawn, upwards from the normal. \[°\]
 const INCIDENCES: [f64; 3] = [0.0, 30.0, 60.0];
 
 /// Input of a product sheet.
 pub struct Sheet<'a> {
-    /// Product in a scene, in the state that is shown.
+    /// Product in a scene, in the state that the sheet describes, with its results.
     pub subject: &'a Subject,
-    /// Text of the tender template; empty: no tender text.
+    /// Template of the tender text; empty: the sheet has no tender text.
     pub tender: &'a str,
     /// Colours of the pictures, for screen or print.
     pub inks: &'a Inks,
 }
 
-/// Returns a share in percent.
+/// Returns a share as text in percent.
 fn percent(share: f64) -> String {
     format!("{} %", number(100.0 * share, 3))
 }
@@ -44,7 +44,8 @@ fn optional(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| number(value, 3))
 }
 
-/// Figures of the state that is shown, from the product's own figures or, for systems without a product, from its data.
+/// Optical figures of the described state: from the product's catalogue entry or, for systems that are not products,
+/// from the data.
 struct StateFigures {
     tau_normal: Option<f64>,
     tau_hemispherical: Option<f64>,
@@ -71,7 +72,7 @@ fn states_words(count: usize) -> String {
     if count == 1 { texts::ONE_STATE.into() } else { texts::states_are(count) }
 }
 
-/// Returns the fields of a tender text.
+/// Returns the fields of a tender text with their values.
 fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
     let figures = StateFigures::of(subject);
     let dataset = subject.dataset();
@@ -138,12 +139,12 @@ pub fn pages(sheet: &Sheet<'_>) -> Result<Vec<Drawing>, ReportError> {
     Ok(pages.finish())
 }
 
-/// Returns a text with the state that is shown, or without where there is none.
+/// Returns a text that mentions the state, or the text without it if the system has no states.
 fn in_state(subject: &Subject, plain: Text, with: fn(&str) -> String) -> String {
     if subject.state.is_empty() { plain.into() } else { with(&subject.state) }
 }
 
-/// Returns the figures of the state that is shown, with the errors that its data state.
+/// Returns names and values of the optical figures of the described state, with the uncertainties that its data state.
 fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)> {
     let figures = StateFigures::of(subject);
     let dataset = subject.dataset();
@@ -199,7 +200,7 @@ fn figures(subject: &Subject, facts: Option<&DataFacts>) -> Vec<(String, String)
     list
 }
 
-/// Adds the section, and the light distribution for three incident directions.
+/// Adds pictures of the system's section and of the light distribution for three incident directions.
 fn pictures(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
     let Some(btdf) = subject.transmission() else {
         return Err(ReportError::Nothing(texts::PRODUCT_SHEET, texts::NO_DATA.into()));
@@ -306,7 +307,7 @@ fn states(pages: &mut Pages, product: &Product) {
     pages.table(&table);
 }
 
-/// Adds the figures of the system in the scene that belongs to it.
+/// Adds figures and pictures of the system in use in the scene.
 fn in_use(pages: &mut Pages, subject: &Subject, inks: &Inks) -> Result<(), ReportError> {
     pages.heading(texts::IN_USE.get());
     let [width, height] = subject.file.aperture[0].size.map(tick);
@@ -341,7 +342,7 @@ fn tender(pages: &mut Pages, template: &str, fields: &Fields) -> Result<(), Repo
     Ok(())
 }
 
-/// Adds the source of the data and the findings of the checks.
+/// Adds the origin of the data and the findings of the data check.
 pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
     pages.heading(texts::DATA_HEADING.get());
     let dataset = subject.dataset();
@@ -398,7 +399,7 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
     }
 }
 
-/// Returns the addresses that the texts of the product name.
+/// Returns the web addresses that occur in the texts of the product.
 fn links(subject: &Subject) -> Vec<String> {
     let Some(product) = &subject.product else { return Vec::new() };
     let from = &product.provenance;
@@ -412,7 +413,7 @@ fn links(subject: &Subject) -> Vec<String> {
     list
 }
 
-/// Returns flux and its error as a text, for tables.
+/// Returns the luminous flux of the subject's aperture with its uncertainty as text; `None` if it was not computed.
 pub(super) fn flux(subject: &Subject) -> Option<String> {
     let (lid, _) = subject.lid.as_ref()?;
     Some(format!("{} ± {}", si(lid.flux.value, "lm"), si(lid.flux.error, "lm")))

@@ -1,4 +1,4 @@
-//! Size of a picture in pixels or millimetres.
+//! Size of an exported picture in pixels or millimetres.
 
 use super::error::ReportError;
 use crate::drawing::Drawing;
@@ -12,30 +12,30 @@ pub enum Unit {
     /// Pixels.
     #[default]
     Pixels,
-    /// Millimetres on paper, with 300 pixels per inch.
+    /// Millimetres on paper, at 300 pixels per inch.
     Millimetres,
 }
 
-/// Size of a picture.
+/// Size of an exported picture: width and height in pixels or millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Size {
-    /// Horizontal size, in `unit`.
+    /// Width of the picture, in `unit`.
     pub width: f64,
-    /// Vertical size, in `unit`.
+    /// Height of the picture, in `unit`.
     pub height: f64,
-    /// Unit of both sizes.
+    /// Unit of width and height.
     pub unit: Unit,
 }
 
-/// Area of a drawing with letters of the default size: larger pictures have larger letters. \[units²\]
+/// Area of a drawing up to which letters have the default size; larger pictures have larger letters. \[drawing units²\]
 const USUAL: f64 = 800.0 * 600.0;
-/// Units per millimetre where letters have their default size: text is 3.25 mm high.
+/// Drawing units per millimetre with which letters have their default size: text is 3.25 mm high.
 const FINE: f64 = 4.0;
 /// Pixels per millimetre, for 300 per inch.
 const DOTS: f64 = 300.0 / 25.4;
-/// Minimum width and height, below which texts do not fit. \[px\]
+/// Minimum width and height of a picture, below which texts do not fit. \[px\]
 const LEAST: f64 = 240.0;
-/// Maximum width and height. \[px\]
+/// Maximum width and height of a picture. \[px\]
 const MOST: f64 = 8000.0;
 
 impl Default for Size {
@@ -45,10 +45,10 @@ impl Default for Size {
 }
 
 impl Size {
-    /// Creates a size within the limits.
+    /// Creates a size if it is within the limits for pictures.
     ///
     /// # Errors
-    /// Returns an error if the size is too small for the texts, or larger than any picture.
+    /// Returns an error if the size is too small for the texts, or too large.
     pub fn new(width: f64, height: f64, unit: Unit) -> Result<Self, ReportError> {
         let size = Self { width, height, unit };
         let wrong = |why| Err(ReportError::Size(size.to_string(), why));
@@ -62,30 +62,30 @@ impl Size {
         Ok(size)
     }
 
-    /// Returns width and height in pixels.
+    /// Returns width and height of the picture in pixels.
     pub fn pixels(&self) -> [f64; 2] {
         let dots = if self.unit == Unit::Pixels { 1.0 } else { DOTS };
         [self.width * dots, self.height * dots]
     }
 
-    /// Returns the length of a unit of the drawing, in this size's unit.
+    /// Returns the length of a drawing unit, in the unit of the size (pixels or millimetres).
     fn scale(&self) -> f64 {
         let usual = if self.unit == Unit::Pixels { 1.0 } else { 1.0 / FINE };
         usual * (self.width * self.height / (USUAL * usual * usual)).sqrt().max(1.0)
     }
 
-    /// Returns width and height of the drawing, in its units.
+    /// Returns width and height of the drawing that fills this size. \[drawing units\]
     pub fn paper(&self) -> [f64; 2] {
         let scale = self.scale();
         [self.width / scale, self.height / scale]
     }
 
-    /// Returns a drawing of this size as SVG.
+    /// Returns a drawing, made for this size, as an SVG file.
     pub fn svg(&self, drawing: &Drawing) -> String {
         drawing.svg((self.scale(), if self.unit == Unit::Pixels { "px" } else { "mm" }))
     }
 
-    /// Returns a drawing of this size as PNG.
+    /// Returns a drawing, made for this size, as a PNG file.
     ///
     /// # Errors
     /// Returns an error if the picture cannot be encoded.

@@ -1,5 +1,5 @@
-//! Report on a study, for designers: the question, the situation, figures with their errors, pictures, and the accuracy
-//! of all of them.
+//! Report on a study, for designers: question, situation, figures with their uncertainties, pictures, and accuracy of
+//! the methods.
 
 use super::comparison::{Comparison, chapter};
 use super::pages::{Figure, Pages};
@@ -20,7 +20,7 @@ use crate::texts::{Text, export as texts, one_line};
 
 /// Input of a study report.
 pub struct Study<'a> {
-    /// Scene with its results.
+    /// Scene of the study with its results.
     pub subject: &'a Subject,
     /// Title of the report; empty: the product's name.
     pub title: &'a str,
@@ -32,7 +32,7 @@ pub struct Study<'a> {
     pub inks: &'a Inks,
 }
 
-/// Returns the pages of a report.
+/// Returns the pages of a study report.
 ///
 /// # Errors
 /// Returns an error if a tile that has something to show cannot be drawn.
@@ -105,7 +105,7 @@ fn sensors(file: &SceneFile) -> String {
     }
 }
 
-/// Adds the table of quantities with their values and errors.
+/// Adds the table of results: quantities with their values and uncertainties.
 fn results(pages: &mut Pages, subject: &Subject, room: &RoomResult) {
     let totals: Vec<Estimate> = room.sensors.iter().map(SensorResult::total).collect();
     let count = totals.len().max(1) as f64;
@@ -178,7 +178,7 @@ fn tiles(pages: &mut Pages, subject: &Subject, inks: &crate::drawing::colours::I
     Ok(())
 }
 
-/// Adds the methods of the computation and their accuracy.
+/// Adds the text about the methods of the computation and their accuracy.
 fn accuracy(pages: &mut Pages, subject: &Subject) {
     let Some(room) = &subject.room else { return };
     pages.heading(texts::ACCURACY.get());

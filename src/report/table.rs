@@ -1,18 +1,18 @@
-//! Tables of texts and figures, whose rows break within cells and between pages.
+//! Tables of texts and figures for reports, with line breaks within cells and page breaks between rows.
 
 use crate::drawing::Align;
 use crate::drawing::font::{width, wrapped};
 
-/// Head of a column.
+/// Column of a table: head and alignment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column {
-    /// Text and unit.
+    /// Text of the column's head, with unit.
     pub head: String,
-    /// Alignment; figures are aligned at the right.
+    /// Alignment of the column's cells; figures are aligned at the right.
     pub align: Align,
 }
 
-/// Table with its columns and rows.
+/// Table of a report.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     /// Columns of the table.
@@ -22,7 +22,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// Creates a table whose first column holds texts and whose others hold figures.
+    /// Creates a table without rows, with the given column heads. The first column is aligned at the left, for texts,
+    /// the others at the right, for figures.
     pub fn of<const N: usize>(heads: [&str; N]) -> Self {
         let column = |(k, head): (usize, &str)| Column {
             head: head.to_owned(),
@@ -31,12 +32,13 @@ impl Table {
         Self { columns: heads.into_iter().enumerate().map(column).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row.
+    /// Adds a row with one text per column.
     pub fn row<const N: usize>(&mut self, cells: [String; N]) {
         self.rows.push(cells.into());
     }
 
-    /// Returns the widths of the columns: as their texts need, the widest shortened until all fit, the rest shared out.
+    /// Returns the widths of the columns \[pt\] for the font size `size` and the gap `gap` within the width `whole`:
+    /// those of their texts, the widest ones reduced until all fit, or the remaining width distributed.
     pub(super) fn widths(&self, size: f64, gap: f64, whole: f64) -> Vec<f64> {
         let count = self.columns.len();
         let room = (whole - gap * count.saturating_sub(1) as f64).max(1.0);
@@ -69,14 +71,14 @@ impl Table {
         limited(low).collect()
     }
 
-    /// Returns the lines of a row's cells.
+    /// Returns the texts of a row's cells, wrapped to the widths of their columns.
     pub(super) fn lines(&self, row: &[String], size: f64, widths: &[f64]) -> Vec<Vec<String>> {
         let empty = String::new();
         let cell = |k: usize| wrapped(row.get(k).unwrap_or(&empty), size, widths[k]);
         (0..self.columns.len()).map(cell).collect()
     }
 
-    /// Returns the lines of the heads.
+    /// Returns the column heads, wrapped to the widths of their columns.
     pub(super) fn head(&self, size: f64, widths: &[f64]) -> Vec<Vec<String>> {
         self.columns.iter().zip(widths).map(|(column, width)| wrapped(&column.head, size, *width)).collect()
     }

@@ -3,12 +3,13 @@
 use super::ReportError;
 use crate::texts::{Language, export as texts, language};
 
-/// Template in English that comes with the program, as a start for users' own ones.
+/// Template of a tender text in English that comes with the program.
 pub const TEMPLATE: &str = include_str!("../../assets/tender.txt");
-/// Template in German that comes with the program.
+/// Template of a tender text in German that comes with the program.
 pub const TEMPLATE_GERMAN: &str = include_str!("../../assets/tender_de.txt");
 
-/// Returns a template unchanged; of those that come with the program the one in the current language.
+/// Returns the template to use for `template`: a template that comes with the program is replaced by that in the
+/// current language, any other is returned unchanged.
 pub fn spoken(template: &str) -> &str {
     match language() {
         _ if template != TEMPLATE && template != TEMPLATE_GERMAN => template,
@@ -17,14 +18,14 @@ pub fn spoken(template: &str) -> &str {
     }
 }
 
-/// Names of fields with their values; an empty text: unknown.
+/// Fields of a tender text: names with their values; an empty value means unknown.
 pub type Fields = [(&'static str, String)];
 
-/// Returns the template's lines with their fields filled in. A line all of whose fields are unknown is left out; where
-/// only some are, `–` replaces them. Lines that begin with `#` are left out.
+/// Returns the lines of a template with their fields replaced by values. A line is left out if all of its fields are
+/// unknown; if only some are, `–` replaces them. Lines that begin with `#` are left out, too.
 ///
 /// # Errors
-/// Returns an error if a field has another name, or a brace is not closed.
+/// Returns an error if the template contains an unknown field or an unclosed brace.
 pub fn fill(template: &str, fields: &Fields) -> Result<Vec<String>, ReportError> {
     let mut out = Vec::new();
     for (number, line) in template.lines().enumerate() {

@@ -1,11 +1,11 @@
-//! Labels in reports for keys of data and computations that files write in English.
+//! Translated labels in reports for values that files state as English keys.
 
 use crate::catalogue::Origin;
 use crate::compute::btdf::{Severity, ThermalKey};
 use crate::compute::lid::BeamSource;
 use crate::texts::{Text, words as texts};
 
-/// Returns the label of an origin of data.
+/// Returns the label of an origin of data (measured, computed, unknown).
 pub const fn origin_words(origin: Origin) -> Text {
     match origin {
         Origin::Measured => texts::MEASURED,
@@ -14,7 +14,7 @@ pub const fn origin_words(origin: Origin) -> Text {
     }
 }
 
-/// Returns the label of a severity.
+/// Returns the label of a finding's severity.
 pub const fn severity_words(severity: Severity) -> Text {
     match severity {
         Severity::Info => texts::INFO,
@@ -23,7 +23,7 @@ pub const fn severity_words(severity: Severity) -> Text {
     }
 }
 
-/// Returns the label of a thermal figure or an extent.
+/// Returns the label of a thermal quantity or dimension of a product.
 pub const fn thermal_words(key: ThermalKey) -> Text {
     match key {
         ThermalKey::Conductivity => texts::CONDUCTIVITY,
@@ -38,7 +38,7 @@ pub const fn thermal_words(key: ThermalKey) -> Text {
     }
 }
 
-/// Returns the label of the source of sharp beams.
+/// Returns the label of the source from which sharp beams are taken (description, extraction, …).
 pub const fn beam_words(source: BeamSource) -> Text {
     match source {
         BeamSource::None => texts::BEAM_NONE,
@@ -48,7 +48,7 @@ pub const fn beam_words(source: BeamSource) -> Text {
     }
 }
 
-/// Returns the label of a stage of a computation, from its stable key; other names unchanged.
+/// Returns the label of a stage of a computation, from its stable key; unknown keys unchanged.
 pub fn stage_words(name: &str) -> String {
     const STAGES: [(&str, Text); 16] = [
         ("sun", texts::STAGE_SUN),

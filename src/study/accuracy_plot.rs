@@ -1,15 +1,15 @@
-//! Plots of [`accuracy`](super::accuracy): time against error of every method, and stated against actual error of every
-//! sensor. Window, SVG and PNG draw the same numbers, and name the reference. Efforts whose errors the reference cannot
-//! determine are left out.
+//! Plots of [`accuracy`](super::accuracy): error against computing time of every method, and stated against actual
+//! error of every sensor. Window, SVG and PNG draw the same numbers, and name the reference. Computations whose errors
+//! the reference cannot determine are left out.
 
 use super::accuracy::{Accuracy, Quantity, Rung, Series, words};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series as Points, Unit};
 use crate::texts::words as texts;
 
-/// Maximum number of dots of one series in the second plot.
+/// Maximum number of dots of one series in the plot of stated against actual errors.
 const MOST_DOTS: usize = 400;
 
-/// Returns the name of a series.
+/// Returns the name of a series for the legend.
 pub fn name(series: &Series) -> String {
     match series.quantity {
         Quantity::Direct => series.method.to_owned(),
@@ -17,7 +17,7 @@ pub fn name(series: &Series) -> String {
     }
 }
 
-/// Returns both plots, of the same series.
+/// Returns both plots: RMS error against computing time of a new sky, and stated against actual error of each sensor.
 pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
     let rungs = || accuracy.series.iter().flat_map(determined);
     let found = words::axis(accuracy);
@@ -40,18 +40,19 @@ pub fn plots(accuracy: &Accuracy) -> [Plot; 2] {
     [front, honesty]
 }
 
-/// Returns the efforts whose errors the reference can determine.
+/// Returns the computations whose errors the reference can determine.
 fn determined(series: &Series) -> impl Iterator<Item = &Rung> {
     series.rungs.iter().filter(|rung| rung.is_determined())
 }
 
-/// Returns a mark for each effort.
+/// Returns a mark for each effort: computing time of a new sky \[s\], and RMS of the actual relative errors.
 fn front(series: &Series) -> Points {
     let points = determined(series).map(|rung| [rung.sky, rung.rms()]);
     Points { form: Form::Marked, ..Points::line(name(series), points) }
 }
 
-/// Returns a dot for each sensor and effort, thinned at regular intervals: actual error along x, stated error along y.
+/// Returns a dot for each sensor and effort, thinned at regular intervals: actual relative error along x, stated one
+/// along y.
 fn dots(series: &Series) -> Points {
     let count: usize = determined(series).map(|rung| rung.errors.len()).sum();
     let every = count.div_ceil(MOST_DOTS).max(1);

@@ -1,4 +1,4 @@
-//! Data of the built-in products: computed when needed, one state at a time, and stored in the catalogue.
+//! Data of the built-in products: computed when first needed, one state at a time, and stored in the catalogue.
 
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request, Withdrawn};
@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// Computes the data of a built-in product's state from the description that the catalogue stores with it.
+/// Computes the BSDF data of a built-in product's state from the description that the catalogue stores with it.
 ///
 /// # Errors
 /// Returns an error if the product has no description, if this program cannot read it, if it does not have the state,
@@ -36,8 +36,8 @@ pub fn compute(
     Ok(described.measure(state, &request, library, None, progress)?.dataset)
 }
 
-/// Computes the data of all wanted states without data, and stores each as soon as it is finished, so that stopping
-/// loses nothing. Returns the number of states.
+/// Computes the BSDF data of all wanted states that lack them, and stores each as soon as it is finished, so that
+/// stopping loses nothing. Returns the number of computed states.
 ///
 /// # Errors
 /// Returns an error if the catalogue cannot be read or written, or if cancelled.
@@ -67,8 +67,8 @@ pub fn complete(
     Ok(states.len())
 }
 
-/// Returns the table of all described products' figures, from a catalogue that contains the data of all of them; see
-/// [`crate::catalogue::TABLE`].
+/// Returns the CSV table of the figures of all built-in products with a description, from a catalogue that contains the
+/// data of all of them; see [`crate::catalogue::TABLE`].
 ///
 /// # Errors
 /// Returns an error if the catalogue cannot be read, or a state has no data or figures.

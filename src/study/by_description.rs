@@ -1,4 +1,5 @@
-//! Systems known by their description: data for a scene are computed from it, direct sun first of all.
+//! Systems that are known by their description: their data for a scene are computed from it; direct sunlight is traced
+//! through it for the actual sun position.
 
 use super::error::StudyError;
 use super::goniophotometer::{Base, Described, LayerLibrary, Request};
@@ -8,17 +9,18 @@ use crate::compute::estimate::Silent;
 use crate::compute::system::measure::front_basis;
 use std::sync::Arc;
 
-/// Absolute error of the data that light from sky and ground and back reflection are computed with.
+/// Error target (absolute, of τ and ρ) of the data with which light from sky and ground and back reflection are
+/// computed.
 const ERROR: f64 = 0.005;
 
-/// Returns basis and error of data that are computed for a scene.
+/// Returns the bases and the error target of data that are computed for a scene.
 pub fn request() -> Request {
     let cells = front_basis();
     Request { incident: cells.clone(), emergent: cells, error: ERROR, seed: 1 }
 }
 
 impl Described {
-    /// Creates a system of a scene from one state.
+    /// Creates the system of an aperture from one state of the description. `need`: data that the scene needs.
     pub fn system(&self, state: Option<&str>, need: Need, library: &dyn LayerLibrary) -> Result<System, StudyError> {
         let states = self.states(library)?;
         let first = states.first().map(String::as_str).unwrap_or_default();
@@ -35,7 +37,8 @@ impl Described {
         Ok(System { label, state: state.to_owned(), dataset: Arc::new(dataset), model: Some(model) })
     }
 
-    /// Creates the optical model for single directions, and for the solar band if the materials have solar properties.
+    /// Creates the optical model for single directions, with one for the solar band if the materials have solar
+    /// properties.
     fn system_model(&self, state: &str, library: &dyn LayerLibrary) -> Result<SystemModel, StudyError> {
         let source = SolarSource::of(self.materials(state, library)?);
         let solar = match source {
@@ -45,7 +48,7 @@ impl Described {
         Ok(SystemModel(Arc::from(self.optical_model(state, library)?), solar))
     }
 
-    /// Returns a placeholder for data that are not needed.
+    /// Returns a dataset without light, in place of data that a scene does not need.
     fn dark(&self, state: &str) -> Dataset {
         let system = &self.file.system;
         let mut dataset = Dataset {
@@ -61,13 +64,13 @@ impl Described {
     }
 }
 
-/// Creates the optical model from the text of a description; `None` if it names layers that cannot be found from here.
+/// Creates the optical model from the text of a description; `None` if it names layers that cannot be found.
 pub(super) fn system_model_from_text(text: &str, state: &str, library: &dyn LayerLibrary) -> Option<SystemModel> {
     let described = Described::from_text(text, Base::Builtin).ok()?;
     described.system_model(state, library).ok()
 }
 
-/// Returns the message about a state that a described system does not have.
+/// Returns the message that a described system does not have a state.
 pub(super) fn no_such_state(name: &str, state: &str, states: &[String]) -> String {
     if states.iter().all(String::is_empty) {
         format!("{name} has no states; leave `state` out")

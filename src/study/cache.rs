@@ -1,30 +1,31 @@
-//! Cache of a few most recently used results by exact key, for what does not depend on a changed sky, time or product.
+//! Cache of the most recently used results, found by exact keys; for results that do not depend on a changed sky, time
+//! or product.
 
 use std::convert::Infallible;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Numbers that a result depends on, as bits.
+/// Key of a result: the bits of all numbers on which it depends.
 pub type Key = Vec<u64>;
 
-/// Cache of the most recently used values, shared between threads.
+/// Cache of the most recently used results, shared between threads.
 pub struct Cache<T> {
     entries: Mutex<Vec<(Key, Arc<T>)>>,
     capacity: usize,
 }
 
 impl<T> Cache<T> {
-    /// Creates an empty cache of at most `capacity` values.
+    /// Creates an empty cache of at most `capacity` results.
     pub const fn new(capacity: usize) -> Self {
         Self { entries: Mutex::new(Vec::new()), capacity }
     }
 
-    /// Whether the cache contains the value of a key.
+    /// Whether the cache contains the result of a key.
     pub fn holds(&self, key: &Key) -> bool {
         self.entries.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|(k, _)| k == key)
     }
 
-    /// Returns the value of a key, computed if it is not stored. Two threads may compute the same value at the same
-    /// time; both get that of the first.
+    /// Returns the result of a key; it is computed if it is not stored. Two threads may compute the same result at the
+    /// same time; both then get that of the first.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
         let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
         let known = |entries: &mut Vec<(Key, Arc<T>)>| {
@@ -49,7 +50,7 @@ impl<T> Cache<T> {
         Ok(value)
     }
 
-    /// Returns the value of a key like [`Self::get`], for computations that cannot fail.
+    /// Returns the result of a key like [`Self::get`], for computations that cannot fail.
     pub fn find(&self, key: Key, compute: impl FnOnce() -> T) -> Arc<T> {
         match self.get(key, || Ok::<_, Infallible>(compute())) {
             Ok(value) => value,

@@ -4,8 +4,8 @@ use jiff::tz::TimeZone;
 use jiff::{Timestamp, Zoned};
 use std::time::SystemTime;
 
-/// Returns the current time in the user's time zone. A clock beyond the calendar (before the year −9999 or after 9999)
-/// is set to its end.
+/// Returns the current date and time in the user's time zone. A clock beyond the calendar (before the year −9999 or
+/// after 9999) is set to its end.
 pub fn now() -> Zoned {
     at(SystemTime::now())
 }

@@ -1,8 +1,8 @@
-//! Datasets in compact form, with the effect on light in a room.
+//! Compact storage of datasets (wavelets), and its effect on illuminances in a standard room.
 //!
 //! The standard room is 4 × 6 × 3 m with a façade aperture of 4 × 2 m, its sill at 1 m, and 8 × 12 sensors at 0.85 m.
-//! Illuminances are direct ones, with each incident direction representing its patch: two forms of the same data are
-//! compared, not two interpolations between incident directions.
+//! Illuminances are direct ones, with each incident direction representing its patch, so that original and compressed
+//! data are compared, not two interpolations between incident directions.
 
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
@@ -18,20 +18,20 @@ use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Form in which a dataset is stored.
+/// Method by which a dataset is stored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Storage {
-    /// Every value (rounded to f32 in the catalogue).
+    /// Storage of every value (rounded to f32 in the catalogue).
     Lossless,
-    /// Data in compact form.
+    /// Compression by wavelets, with errors limited by this criterion.
     Compact(Criterion),
 }
 
-/// Size without loss below which datasets are stored without loss by default. \[bytes\]
+/// Size of the losslessly stored data below which datasets are stored without loss by default. \[bytes\]
 pub const LOSSLESS_BELOW: usize = 1 << 20;
 
 impl Storage {
-    /// Returns the default form: small datasets are stored without loss.
+    /// Returns the default method of storage for a dataset: without loss for small ones, else compressed.
     pub fn default_for(dataset: &Dataset) -> Self {
         if dataset_blob::encode(dataset).len() < LOSSLESS_BELOW {
             Self::Lossless
@@ -41,55 +41,57 @@ impl Storage {
     }
 }
 
-/// Change of light in the standard room under one outside.
+/// Changes that compression causes in the standard room under one outside (sky or sun).
 #[derive(Debug, Clone, PartialEq)]
 pub struct RoomEffect {
-    /// Name of the outside.
+    /// Name of the outside: "overcast" or the position of a sun.
     pub outside: String,
-    /// Share of the flux of the luminous-intensity distribution that is misplaced: ½Σ|ΔΦ| / ΣΦ.
+    /// Share of the flux through the aperture that leaves in wrong directions after compression: ½Σ|ΔΦ| / ΣΦ.
     pub lid_misplaced: f64,
-    /// Mean relative change of illuminance over the sensors: Σ|ΔE| / ΣE.
+    /// Mean relative change of the illuminances at the sensors: Σ|ΔE| / ΣE.
     pub illuminance: f64,
-    /// Largest relative change of illuminance: |ΔE| / max(E, 1 % of the mean).
+    /// Largest relative change of the illuminance at a sensor: |ΔE| / max(E, 1 % of the mean).
     pub illuminance_worst: f64,
-    /// Mean illuminance of the sensors before compression. \[lx\]
+    /// Mean illuminance of the sensors with the original data. \[lx\]
     pub mean_illuminance: f64,
 }
 
-/// One function of a dataset in compact form.
+/// Report on the compression of one function of a dataset, such as its front transmission.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompactedFunction {
-    /// Name of the function, e.g. `visible transmission_front`.
+    /// Name of the function: band and component, such as `visible transmission_front`.
     pub name: String,
-    /// Counts of numbers, and errors.
+    /// Numbers of values before and after compression, and the errors of the compressed values.
     pub report: CompactReport,
-    /// Size without loss: f32, byte planes, zstd. \[bytes\]
+    /// Size when stored without loss: f32, byte planes, zstd. \[bytes\]
     pub bytes_lossless: usize,
-    /// Size in compact form. \[bytes\]
+    /// Size when stored compressed. \[bytes\]
     pub bytes: usize,
-    /// Size in memory while in use. \[bytes\]
+    /// Size of the compressed data in memory while they are in use. \[bytes\]
     pub bytes_in_use: usize,
-    /// Changes of light in the standard room, for visible transmission from outside; else empty.
+    /// Changes of the light in the standard room, one entry for each sky and sun; only for the visible transmission
+    /// from outside, else empty.
     pub effects: Vec<RoomEffect>,
 }
 
 impl CompactedFunction {
-    /// Returns the ratio of plain f32 bytes to stored bytes.
+    /// Returns the ratio of the size as plain f32 values to the compressed size.
     pub fn byte_ratio(&self) -> f64 {
         (4 * self.report.rows * self.report.cells) as f64 / self.bytes.max(1) as f64
     }
 }
 
-/// A dataset in compact form, with a report on each of its functions.
+/// Dataset after compression, with a report on each of its functions.
 #[derive(Debug, Clone)]
 pub struct Compacted {
-    /// Dataset; functions without a compact form (closed forms, tensor trees) are unchanged.
+    /// Compressed dataset; functions that cannot be compressed (closed forms, tensor trees) are unchanged.
     pub dataset: Dataset,
-    /// Functions in compact form.
+    /// Reports on the functions that were compressed.
     pub functions: Vec<CompactedFunction>,
 }
 
-/// Indicatrices that can be compact: by patches or at single directions.
+/// Data of a function that can be compressed: luminance coefficients by incident and emergent patches, or by emergent
+/// patches for single incident directions.
 #[derive(Clone, Copy)]
 enum Data<'a> {
     Cells(&'a CellMatrix),
@@ -105,6 +107,7 @@ impl<'a> Data<'a> {
         }
     }
 
+    /// Compresses the data; returns them and their compressed rows.
     fn compacted(self, criterion: Criterion) -> Result<(Scattered, Arc<CompactRows>), CompactError> {
         let taken = |rows: Option<&Arc<CompactRows>>| Arc::clone(rows.expect("the compact form was just made"));
         Ok(match self {
@@ -135,7 +138,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Returns the incident patches, each with the row that represents it.
+    /// Returns the basis of incident patches, with the index of the row of data that represents each patch.
     fn incident(self) -> (RingBasis, Vec<Option<usize>>) {
         match self {
             Self::Cells(matrix) => (matrix.incident().clone(), (0..matrix.incident().len()).map(Some).collect()),
@@ -162,7 +165,7 @@ impl<'a> Data<'a> {
     }
 }
 
-/// Converts every function by patches or at single directions to compact form.
+/// Compresses every function of a dataset whose values are given by incident patches or at single incident directions.
 ///
 /// # Errors
 /// Returns an error for values that have no compact form, or a threshold out of range.
@@ -189,6 +192,8 @@ fn turn_back(band: &mut Band, functions: &mut Vec<CompactedFunction>) {
     }
 }
 
+/// Compresses the functions of one spectral band. `given`: original band; `made`: band that receives the compressed
+/// functions; `functions`: list that receives the reports.
 fn compact_band(
     name: &str,
     given: &Band,
@@ -218,7 +223,7 @@ fn compact_band(
     Ok(())
 }
 
-/// Returns the dataset in the form in which it is stored, with findings on the compression.
+/// Returns the dataset as it is stored by the given method, with findings on the compression.
 ///
 /// # Errors
 /// Returns the errors of [`compact`].
@@ -229,7 +234,8 @@ pub fn stored_as(dataset: &Dataset, storage: Storage) -> Result<Dataset, Compact
     Ok(dataset)
 }
 
-/// Returns the dataset in its default form. Data without a compact form are stored without loss, with a finding.
+/// Returns the dataset as it is stored by its default method. Data that cannot be compressed are stored without loss,
+/// with a finding that says why.
 pub fn stored_by_default(dataset: &Dataset) -> Dataset {
     stored_as(dataset, Storage::default_for(dataset)).unwrap_or_else(|error| {
         let mut kept = dataset.clone();
@@ -238,6 +244,7 @@ pub fn stored_by_default(dataset: &Dataset) -> Dataset {
     })
 }
 
+/// Returns the finding on the compression of one function, as a sentence for the user.
 fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
     let report = &function.report;
     let worst = function.effects.iter().map(|effect| effect.illuminance).fold(0.0, f64::max);
@@ -263,7 +270,7 @@ fn finding(function: &CompactedFunction, criterion: Criterion) -> Finding {
     )
 }
 
-/// Formats a criterion.
+/// Formats the criterion of a compression, such as "at most 1 % of the flux misplaced".
 pub fn criterion_words(criterion: Criterion) -> String {
     let percent = 100.0 * criterion.threshold();
     match criterion {
@@ -277,9 +284,9 @@ pub fn criterion_words(criterion: Criterion) -> String {
 
 /// Aperture of the standard room.
 const APERTURE: Aperture = Aperture { surface: Surface::Facade, corner: DVec3::new(0.0, 0.0, 1.0), size: [4.0, 2.0] };
-/// Altitudes of the suns, and bearings from the façade's normal. \[°\]
+/// Positions of the suns in the standard room: altitude, and bearing from the façade's normal. \[°\]
 const SUNS: [(f64, f64); 3] = [(20.0, 0.0), (45.0, 30.0), (60.0, -40.0)];
-/// Direct normal illuminance. \[lx\]
+/// Direct normal illuminance of each of these suns. \[lx\]
 const DIRECT_NORMAL: f64 = 80_000.0;
 
 fn sensors() -> Vec<Sensor> {
@@ -288,7 +295,8 @@ fn sensors() -> Vec<Sensor> {
     (0..96).map(|k| Sensor { position: place(k), normal: DVec3::Z }).collect()
 }
 
-/// Illuminances of the standard room's sensors from emergent luminances by patches. \[lx\]
+/// Standard room, which gives the direct illuminances at its sensors from the luminances that its aperture emits by
+/// patch.
 #[derive(Debug)]
 pub struct StandardRoom {
     receptions: Vec<Reception>,
@@ -296,19 +304,20 @@ pub struct StandardRoom {
 }
 
 impl StandardRoom {
-    /// Creates the room for light on the patches of a basis.
+    /// Creates the room for luminances on the patches of an emergent basis.
     pub fn new(basis: &RingBasis) -> Self {
         let receptions = sensors().par_iter().map(|sensor| Reception::new(sensor, &APERTURE, Some(basis))).collect();
         Self { receptions, weights: basis.projected_solid_angles() }
     }
 
-    /// Returns the illuminances of the 8 × 12 sensors. \[lx\]
+    /// Returns the direct illuminances of the 8 × 12 sensors for emergent luminances by patch \[cd/m²\]. \[lx\]
     pub fn illuminances(&self, luminance: &[f64]) -> Vec<f64> {
         let at = |reception: &Reception| reception.cells.iter().zip(luminance).map(|(w, l)| w * l).sum();
         self.receptions.iter().map(at).collect()
     }
 
-    /// Compares two sets of emergent luminances.
+    /// Compares the light in the room for emergent luminances by patch before and after compression. \[cd/m²\]
+    /// `outside`: name of the sky or sun.
     pub fn effect(&self, outside: String, before: &[f64], after: &[f64]) -> RoomEffect {
         let flux: f64 = self.weights.iter().zip(before).map(|(w, l)| w * l).sum();
         let moved: f64 = self.weights.iter().zip(before.iter().zip(after)).map(|(w, (b, a))| w * (b - a).abs()).sum();
@@ -327,8 +336,12 @@ impl StandardRoom {
     }
 }
 
-/// Returns the rows of a dataset with the illuminances that they represent, under the overcast sky (CIE type 16, 10
-/// klx, ground 0.2) and three suns. \[lx\]
+/// Returns for each outside – the overcast sky (CIE type 16, 10 klx, ground reflectance 0.2) and three suns – the
+/// indices of the rows of data that it illuminates, each with the illuminance of the aperture that the row represents.
+/// \[lx\]
+///
+/// `incident`: basis of incident patches; `row_of_cell`: index of the row that represents each of them; `row_of`: index
+/// of the row for a direction of the sun.
 pub fn standard_outsides(
     incident: &RingBasis,
     row_of_cell: &[Option<usize>],
@@ -351,6 +364,7 @@ pub fn standard_outsides(
     out
 }
 
+/// Computes the effects of compression in the standard room, under each of its outsides.
 fn room_effects(before: Data<'_>, after: Data<'_>) -> Vec<RoomEffect> {
     let room = StandardRoom::new(before.emergent());
     let (cells, rows) = before.incident();

@@ -1,9 +1,8 @@
-//! Comparison of candidates of a scene: their figures with errors, and which one is better.
+//! Comparison of candidates of a scene: their figures with errors, and which candidate is better in each figure.
 //!
 //! A candidate is the scene with another product, state, sky or room ([`candidate()`]). [`Facts`] are its computed
-//! results, [`FIGURES`] the figures derived from them, [`compare`] lists the figures of several candidates. Window and
-//! command line show the same [`Row`]s. Later additions (a year, a rank) are a part of [`Facts`] and figures that use
-//! it.
+//! results, [`FIGURES`] the figures that follow from them, and [`compare`] lists the figures of several candidates.
+//! Window and command line show the same [`Row`]s.
 
 mod candidate;
 pub mod curves;
@@ -25,7 +24,7 @@ use crate::compute::lid::c_gamma::Peaks;
 /// Maximum number of candidates in a comparison.
 pub const MOST: usize = 6;
 
-/// Returns the results of a scene that has been computed as a whole.
+/// Returns the results for the comparison from a scene of which everything has been computed.
 pub fn facts_of(subject: &Subject) -> Facts {
     Facts {
         data: DataFacts::of(subject.dataset()),
@@ -34,7 +33,8 @@ pub fn facts_of(subject: &Subject) -> Facts {
     }
 }
 
-/// Computes the results that the figures need: data, light and room of a scene, by its first aperture.
+/// Computes the results for the comparison of one candidate: BSDF figures and light of its first aperture, and
+/// illuminances in the room.
 ///
 /// # Errors
 /// Returns the errors of [`Session::room`].

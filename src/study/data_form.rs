@@ -1,5 +1,5 @@
-//! Data of one incidence in the forms in which they are used: original, filtered for diffuse light, compressed by
-//! wavelets.
+//! BSDF data of one incident direction as they are used: original, spread by a filter for diffuse light, or compressed
+//! by wavelets.
 
 use super::compact::LOSSLESS_BELOW;
 use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
@@ -10,82 +10,83 @@ use crate::compute::lid::Interpolator;
 use crate::compute::wavelet::{CompactError, CompactRows, Criterion};
 use std::sync::Arc;
 
-/// Form of the data.
+/// Version of the data of one incident direction: original or processed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum DataForm {
     /// Original data, measured or computed.
     #[default]
     Measured,
-    /// Data spread over the patch that the incident direction represents.
+    /// Data spread over the patch of incident directions that one direction represents, for diffuse light.
     Filtered,
-    /// Data compressed by wavelets.
+    /// Data compressed by wavelets, like large datasets in the catalogue.
     Compact,
 }
 
 impl DataForm {
-    /// All forms, in the order in which they are offered.
+    /// All versions, in the order in which they are offered.
     pub const ALL: [Self; 3] = [Self::Measured, Self::Filtered, Self::Compact];
 }
 
-/// Processing of the data.
+/// Processing by which a version was made from the original data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum How {
-    /// Filter of a scheme for diffuse light.
+    /// Filter of an interpolation scheme for diffuse light.
     Filter {
-        /// Scheme that the filter belongs to.
+        /// Scheme to which the filter belongs.
         scheme: DiffuseScheme,
-        /// Whether the scene uses the filter; if not, it computes with finer patches of the sky instead.
+        /// Whether the scene uses the filter; if not, it divides the sky into finer patches instead.
         in_force: bool,
     },
     /// Compression by wavelets.
     Wavelets {
-        /// Number of values stored for this indicatrix, including τ.
+        /// Number of values that are stored for this indicatrix after compression, including τ.
         kept: usize,
-        /// Number of original values.
+        /// Number of values before compression.
         cells: usize,
-        /// Maximum misplaced flux, as a share of τ.
+        /// Maximum share of the transmitted flux that compression may shift to wrong directions.
         allowed: f64,
-        /// Whether the catalogue stores the data in this form; if not, they are small enough to be stored without loss.
+        /// Whether the catalogue stores the data compressed; if not, they are small enough to be stored without loss.
         in_force: bool,
     },
 }
 
-/// Difference of a form from the original data.
+/// Difference of processed data from the original data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Difference {
-    /// Largest absolute difference of any patch. \[1/sr\]
+    /// Largest absolute difference of the luminance coefficient of any emergent patch. \[1/sr\]
     pub largest: f64,
-    /// Misplaced flux, ½∫|Δq| cosθ dω, as a share of τ.
+    /// Share of the transmitted flux in wrong directions: ½∫|Δq| cosθ dω / τ.
     pub misplaced: f64,
 }
 
-/// Data of one incidence in a form.
+/// Data of one incident direction after processing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Formed {
-    /// Data by emergent direction.
+    /// Luminance coefficients by emergent direction.
     pub indicatrix: Indicatrix,
-    /// Processing of the data.
+    /// Processing by which they were made.
     pub how: How,
     /// Difference from the original data; `None` if these are no longer known.
     pub difference: Option<Difference>,
 }
 
-/// Reason why data do not have a form.
+/// Reason why data of an incident direction cannot be processed in this manner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NoForm {
-    /// Nothing is scattered, or only by a closed form.
+    /// Nothing is scattered, or only by a closed form such as Lambert's.
     NoValues,
-    /// The data are means over incident patches, which are no wider than the light that they represent.
+    /// The data are means over incident patches, so that they need not be spread over a patch.
     Means,
     /// The data are a tensor tree, which is already compact.
     Tree,
-    /// The incident directions are not a lattice of patches.
+    /// The incident directions do not form a lattice of patches.
     NoLattice,
-    /// The values cannot be compressed.
+    /// The values cannot be compressed, for this reason.
     Values(CompactError),
 }
 
-/// Returns the index of the data that represent an incidence; `None` outside the hemisphere and for closed forms.
+/// Returns the index of the row of data that a computation without interpolation uses for an incident direction: that
+/// of its patch, or of the nearest direction of the data. `None` outside the hemisphere and for data in closed form.
 pub fn row_of(btdf: &Btdf, incident: Incident) -> Option<usize> {
     match btdf.scattered.as_ref()? {
         Scattered::Cells(matrix) => matrix.incident().index(incident.0),
@@ -94,8 +95,8 @@ pub fn row_of(btdf: &Btdf, incident: Incident) -> Option<usize> {
     }
 }
 
-/// Returns the filter of a scheme for diffuse light, and the scheme that it belongs to: that of the patch itself if the
-/// scheme filters nothing.
+/// Returns the filter of an interpolation scheme for diffuse light, and the scheme to which it belongs; for a scheme
+/// without a filter that over the patch is returned.
 fn filter_of(scheme: DiffuseScheme) -> (DiffuseScheme, Filter) {
     let own = |kernel| Filter { kernel, sharp_only: false };
     match scheme {
@@ -106,10 +107,11 @@ fn filter_of(scheme: DiffuseScheme) -> (DiffuseScheme, Filter) {
     }
 }
 
-/// Returns the data that represent an incidence, filtered for diffuse light by a scheme.
+/// Returns the data of the patch or direction nearest to `incident`, spread by the filter of an interpolation scheme
+/// for diffuse light.
 ///
 /// # Errors
-/// Returns the reason if the data do not have this form.
+/// Returns the reason if the data cannot be filtered.
 pub fn filtered(
     btdf: &Btdf,
     incident: Incident,
@@ -137,11 +139,11 @@ pub fn filtered(
     })
 }
 
-/// Returns the data that represent an incidence, compressed as the catalogue does with data of more than
-/// [`LOSSLESS_BELOW`] bytes.
+/// Returns the data of the patch or direction nearest to `incident`, compressed like datasets of more than
+/// [`LOSSLESS_BELOW`] bytes in the catalogue.
 ///
 /// # Errors
-/// Returns the reason if the data do not have this form.
+/// Returns the reason if the data cannot be compressed.
 pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
     if matches!(btdf.scattered, Some(Scattered::Tree(_))) {
         return Err(NoForm::Tree);
@@ -170,6 +172,8 @@ pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
         indicatrix: Indicatrix { basis: basis.clone(), q },
         how: how(made.numbers(), false),
         difference: Some(difference),
+    /// Returns the difference of processed luminance coefficients (`made`) from the original ones (`given`). `weights`:
+    /// projected solid angles of the emergent patches. \[sr\]
     })
 }
 
@@ -183,7 +187,7 @@ fn difference(weights: &[f64], given: &[f64], made: &[f64]) -> Difference {
     }
 }
 
-/// Size below which data are stored without loss. \[MB\]
+/// Size below which datasets are stored without loss. \[MB\]
 pub const LOSSLESS_MEGABYTES: f64 = LOSSLESS_BELOW as f64 / (1 << 20) as f64;
 
 #[cfg(test)]

@@ -8,47 +8,47 @@ use std::path::PathBuf;
 /// Error of a study.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StudyError {
-    /// A key of the scene is wrong.
+    /// Key of the scene with a wrong value.
     #[error("{key}: {message}")]
     Key {
-        /// Full name of the key, e.g. `aperture[1].size`.
+        /// Full name of the key, such as `aperture[1].size`.
         key: String,
-        /// Error, and what is expected.
+        /// Description of the error, and what is expected.
         message: String,
     },
-    /// The text is not a scene.
+    /// Text that is not a scene file.
     #[error("line {line}, column {column}: {message}")]
     Syntax {
         /// Line number, from 1.
         line: usize,
         /// Column number, from 1.
         column: usize,
-        /// Description of the error.
+        /// Description of the error, and what is expected.
         message: String,
     },
-    /// A file cannot be read or written.
+    /// File that cannot be read or written.
     #[error("{}: {message}", path.display())]
     File {
         /// Path of the file.
         path: PathBuf,
-        /// Error, and what is expected.
+        /// Description of the error, and what is expected.
         message: String,
     },
-    /// The catalogue does not have the entry, or cannot be read.
+    /// Entry that the catalogue does not contain, or a catalogue that cannot be read.
     #[error("catalogue: {0}")]
     Catalogue(String),
-    /// Interreflection in the room has no solution.
+    /// Room in which interreflection has no solution, because nothing absorbs light.
     #[error("room.reflectance: {0}")]
     Room(NothingAbsorbs),
-    /// More apertures than interreflection can be computed with.
+    /// More apertures than interreflection can be computed for.
     #[error("aperture: {0}")]
     Patches(TooManyPatches),
-    /// Lengths or values that are too far apart for the arithmetic.
+    /// Lengths or values that differ too much for the arithmetic.
     #[error(
         "the light at {0} is not a finite number: lengths or values of the scene differ by too many orders of magnitude"
     )]
     NoNumber(String),
-    /// The computation was cancelled.
+    /// Cancelled computation.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
@@ -67,12 +67,12 @@ impl From<TooManyPatches> for StudyError {
 }
 
 impl StudyError {
-    /// Returns the error about `system = "ranked"` where a system is needed.
+    /// Returns the error that `system = "ranked"` is given where a system is needed. `key`: name of the key.
     pub fn ranked(key: impl Into<String>) -> Self {
         Self::key(key, "\"ranked\" stands for every product in turn: use `cfs rank`, or name one product here")
     }
 
-    /// Returns the error about a wrong key.
+    /// Returns the error about a wrong key of the scene, by its full name.
     pub fn key(key: impl Into<String>, message: impl Into<String>) -> Self {
         Self::Key { key: key.into(), message: message.into() }
     }

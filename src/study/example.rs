@@ -1,4 +1,4 @@
-//! Scene of a new start: of the window's first start, and for a product alone.
+//! Scenes for a first start: that of the window, and that for a single product.
 
 use super::scene_file::{
     ApertureKeys, ApertureReflectance, ComputeKeys, DEFAULT_TURBIDITY, DstKey, IlluminanceKey, LightKey, OffsetKey,
@@ -6,7 +6,8 @@ use super::scene_file::{
     SystemKeys, TimeKey,
 };
 
-/// Returns the scene of a first start: Stuttgart, south, an equinox noon under a clear sky.
+/// Returns the scene of the window's first start: a room in Stuttgart with a south façade, at noon of an equinox under
+/// a clear sky.
 pub fn first_scene() -> SceneFile {
     SceneFile {
         building: None,
@@ -68,7 +69,8 @@ pub fn first_scene() -> SceneFile {
     }
 }
 
-/// Returns the scene of a first start with a product of the catalogue in its aperture.
+/// Returns the scene of the first start with a product of the catalogue in its aperture. `product`, `state`: their
+/// keys.
 pub fn scene_of(product: &str, state: Option<&str>) -> SceneFile {
     let mut scene = first_scene();
     scene.aperture[0].system = SystemKeys::Catalogue {

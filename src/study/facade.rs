@@ -1,4 +1,4 @@
-//! Illuminance of façade and apertures from outside, and the effect of obstructions on it.
+//! Illuminance of façade and apertures from outside, and its change by each obstruction.
 
 use super::error::StudyError;
 use super::library::Library;
@@ -13,22 +13,22 @@ use crate::compute::sky::{Outside, Sun, irradiance};
 use crate::compute::surroundings::skyline::Skyline;
 use std::path::Path;
 
-/// System for the illuminance of an aperture from outside, which does not depend on its own system.
+/// System in every aperture when its illuminance from outside is computed, which does not depend on the system.
 const TRANSPARENT: SystemKeys = SystemKeys::Ideal { kind: IdealKind::Transparent, transmittance: 1.0 };
 
-/// Illuminance of the façade from outside. \[lx\]
+/// Illuminance of the façade (in its plane, from outside). \[lx\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FacadeLight {
     /// Illuminance by sky, ground, skyline and obstructions. \[lx\]
     pub diffuse: Estimate,
-    /// Illuminance by the sun. \[lx\]
+    /// Illuminance by direct sun. \[lx\]
     pub direct: f64,
     /// Whether the illuminance is a mean over apertures behind obstructions.
     pub behind: bool,
 }
 
-/// Finds the illuminance of the façade under sky and sun of a scene: without boxes and building it is the same all
-/// over; behind them it is the mean over the façade's apertures by area, or over the whole façade if there are none.
+/// Computes the illuminance of the façade under sky and sun of a scene. Without boxes and building it is the same
+/// everywhere; behind them it is the mean over the façade's apertures by area, or over the whole façade if it has none.
 /// `base`: folder of the scene file.
 ///
 /// # Errors
@@ -72,9 +72,9 @@ pub fn facade_light(
     Ok(FacadeLight { diffuse, direct: direct.value, behind: true })
 }
 
-/// Finds for every box, then for the building if there is one, by how much the illuminance of the apertures from
-/// outside would change without it, relative to that with all of them; `None` where they are dark. `base`: folder of
-/// the scene file.
+/// Computes for every box, then for the building if there is one, the relative change of the apertures' illuminance
+/// from outside if this obstruction were removed; `None` where the apertures are dark. `base`: folder of the scene
+/// file.
 ///
 /// # Errors
 /// Returns the errors of [`facade_light`].
@@ -108,7 +108,7 @@ pub fn obstruction_effects(
     (0..count).map(without).collect::<Result<_, StudyError>>().map(Some)
 }
 
-/// Returns an aperture that transmits all light and has no control.
+/// Returns the aperture with a system that transmits all light, and without control.
 fn open(keys: &ApertureKeys) -> ApertureKeys {
     ApertureKeys {
         system: TRANSPARENT,
@@ -119,8 +119,8 @@ fn open(keys: &ApertureKeys) -> ApertureKeys {
     }
 }
 
-/// Returns the illuminances from outside of the apertures for which `wanted` is `true`, means by area: diffuse and
-/// direct. \[lx\]
+/// Returns the diffuse and the direct illuminance from outside of the apertures for which `wanted` is `true`, as means
+/// by area. \[lx\]
 fn received(
     file: &SceneFile,
     base: &Path,

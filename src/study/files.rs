@@ -1,4 +1,5 @@
-//! Files on disk: read completely up to a maximum size, written completely or not at all, and never over their input.
+//! Files on disk: read completely up to a maximum size, written completely or not at all, and never over an input of
+//! the same run.
 //!
 //! Every file that the program writes for the user goes through [`write_all`]: it refuses to replace an input or a file
 //! of another kind, writes to a file beside the target, and renames it when all bytes are written. The name `-` means
@@ -17,10 +18,10 @@ use std::sync::{Mutex, PoisonError};
 /// \[bytes\]
 pub const LARGEST_FILE: u64 = limits::FILE_BYTES;
 
-/// Maximum number of files written together that are held open at once; systems allow a thousand.
+/// Maximum number of files written together that are open at the same time; systems allow a thousand.
 const MOST_OPEN: usize = 200;
 
-/// Files that this run of the program has read.
+/// Paths of the files that this run of the program has read.
 static INPUTS: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Contents of standard input and pipes that have been read.
@@ -54,20 +55,21 @@ pub fn read(path: &Path) -> Result<Vec<u8>, StudyError> {
     std::fs::read(path).map_err(cannot)
 }
 
-/// Whether a path stands for standard input or output.
+/// Whether a path (`-`) stands for standard input or output.
 pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Whether a path stands for standard input or output, or leads to a pipe or a device: neither its name nor its folder
-/// says anything about its content.
+/// Whether a path stands for standard input or output, or leads to a pipe or a device. Neither the name nor the folder
+/// of such a stream says anything about its content.
 pub fn is_stream(path: &Path) -> bool {
     is_standard(path)
         || ["/dev/stdin", "/dev/stdout", "/dev/fd"].iter().any(|start| path.starts_with(start))
         || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file() && !meta.is_dir())
 }
 
-/// Returns the name by which the kind of a file is recognised: its own, or for a stream one derived from its content.
+/// Returns the name by which the kind of a file is recognised: its own, or for a stream one with an extension derived
+/// from its content.
 ///
 /// # Errors
 /// Returns an error if the stream cannot be read.
@@ -76,30 +78,30 @@ pub fn name_with_extension(path: &Path) -> Result<String, StudyError> {
     Ok(if is_stream(path) { format!("{name}{}", extension_of(&read(path)?)) } else { name.into_owned() })
 }
 
-/// Returns the folder that relative names in a file start from; for a stream the working directory.
+/// Returns the folder from which relative paths in a file start; for a stream the working directory.
 pub fn folder(path: &Path) -> &Path {
     path.parent().filter(|_| !is_stream(path)).unwrap_or(Path::new("."))
 }
 
-/// Returns the path from the root of the file system, where the system knows it: the one by which messages name a
-/// written file.
+/// Returns the absolute path of a file, by which messages name a written file; the path itself if it cannot be
+/// determined.
 pub fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
-/// Whether a path leads to a pipe, which can be read once.
+/// Whether a file is a pipe, which can be read only once.
 #[cfg(unix)]
 fn is_pipe(meta: &std::fs::Metadata) -> bool {
     std::os::unix::fs::FileTypeExt::is_fifo(&meta.file_type())
 }
 
-/// Whether a path leads to a pipe; always `false`, since other systems do not report it.
+/// Whether a file is a pipe; always `false`, since other systems do not report it.
 #[cfg(not(unix))]
 const fn is_pipe(_: &std::fs::Metadata) -> bool {
     false
 }
 
-/// Reads a stream, or returns what it held when it was read.
+/// Reads a stream, or returns the bytes of an earlier reading.
 fn read_once<T: std::io::Read>(
     path: &Path,
     open: impl FnOnce() -> Result<T, StudyError>,
@@ -124,7 +126,7 @@ fn read_stream(path: &Path, stream: impl std::io::Read) -> Result<Vec<u8>, Study
     Ok(bytes)
 }
 
-/// Records a file as an input that results depend on and that is read by other means.
+/// Records a file, which is read by other means, as an input of this run of the program.
 pub fn keep(path: &Path) {
     // A pipe that is only looked at loses its writer.
     if is_standard(path) || std::fs::metadata(path).is_ok_and(|meta| !meta.is_file()) {
@@ -139,28 +141,29 @@ pub fn inputs() -> Vec<PathBuf> {
     INPUTS.lock().unwrap_or_else(PoisonError::into_inner).iter().cloned().collect()
 }
 
-/// Files that a written file may replace.
+/// Rule by which a written file may replace an existing one.
 #[derive(Debug, Clone, Copy)]
 pub enum Replace<'a> {
-    /// An empty file, or one of this kind – with `force` of any kind –, but none that this run of the program has read.
+    /// Replaces an empty file or one of the same kind – with `force` of any kind –, but none that this run of the
+    /// program has read.
     Kind {
         /// Kind of the written file.
         kind: FileKind,
         /// Whether files of any kind may be replaced.
         force: bool,
     },
-    /// Any file, since the user was asked, except these.
+    /// Replaces any file, since the user was asked, except these.
     But(&'a [PathBuf]),
 }
 
-/// A file to be written.
+/// File to be written, with its content.
 #[derive(Debug, Clone)]
 pub struct Output<'a> {
     /// Path of the file.
     pub path: &'a Path,
     /// Content of the file.
     pub bytes: &'a [u8],
-    /// Files that it may replace.
+    /// Rule by which it may replace an existing file.
     pub replace: Replace<'a>,
 }
 
@@ -216,7 +219,7 @@ pub fn check(path: &Path, replace: Replace<'_>) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Whether a path is one of the inputs, under any name.
+/// Whether a path leads to one of the inputs of this run, under any name.
 fn is_input(path: &Path, replace: Replace<'_>) -> bool {
     let same = |other: &PathBuf| same_file::is_same_file(path, other).unwrap_or(false);
     match replace {
@@ -232,8 +235,8 @@ fn is_of(path: &Path, kind: FileKind) -> Result<bool, StudyError> {
     Ok(kind.may_be(&head))
 }
 
-/// Writes files, all of them or none: each to a file beside its target first, renamed when all are complete, so that
-/// nothing half-written remains. Pipes and devices are written to directly.
+/// Writes several files, all of them or none: each to a file beside its target first, renamed when all are complete, so
+/// that nothing half-written remains. Pipes and devices are written to directly.
 ///
 /// # Errors
 /// Returns an error that names the file. Existing files are then unchanged.
@@ -278,7 +281,7 @@ pub fn write_all(list: &[Output<'_>]) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Writes one file, as [`write_all`] does.
+/// Writes one file completely or not at all, like [`write_all`].
 ///
 /// # Errors
 /// Returns an error that names the file.
@@ -286,8 +289,9 @@ pub fn write(path: &Path, bytes: &[u8], replace: Replace<'_>) -> Result<(), Stud
     write_all(&[Output { path, bytes, replace }])
 }
 
-/// Writes a file of the program itself in one step, without waiting for the disk, which under load takes seconds:
-/// nothing is lost if the program ends, but a power cut before the returned file is synchronised may lose it.
+/// Writes a file of the program itself (such as its settings) in one step, without waiting for the disk, which under
+/// load takes seconds. Nothing is lost if the program ends, but a power cut before the returned file is synchronised
+/// may lose it.
 ///
 /// # Errors
 /// Returns an error that names the file.
@@ -299,7 +303,7 @@ pub fn write_at_once(path: &Path, bytes: &[u8]) -> Result<std::fs::File, StudyEr
     written.map_err(|error| cannot_write(path, &error))
 }
 
-/// Returns the error that a file cannot be written, with the remedy.
+/// Returns the error that a file cannot be written, with its cause and the remedy.
 pub fn cannot_write(path: &Path, error: &std::io::Error) -> StudyError {
     let expected = match error.kind() {
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded => "nothing was written; make room, or choose another place",

@@ -1,4 +1,4 @@
-//! Hashes of the input of results: equal hashes mean equal results, independent of file locations and computer.
+//! Hashes of the input of results: equal hashes mean equal results, independent of file locations and computers.
 
 use super::error::StudyError;
 use super::goniophotometer::{Described, LayerLibrary};
@@ -8,11 +8,12 @@ use crate::catalogue::Product;
 use crate::formats::system_toml::is_system_file;
 use std::path::Path;
 
-/// Number of the definitions that results follow. Increased whenever the same input gives other numbers, so that
-/// nothing that an earlier build has stored is continued.
+/// Number of the definitions by which results are computed. It is increased whenever the same input gives other
+/// numbers, so that no run continues with values stored by an earlier build.
 const DEFINITIONS: &str = "5";
 
-/// Returns the hash of parts in their order. Half a hash is enough to distinguish millions.
+/// Returns the hash of several parts in their order. Half of the hash's digits are enough to distinguish millions of
+/// inputs.
 pub fn digest(parts: &[&[u8]]) -> String {
     let mut hash = blake3::Hasher::new();
     for part in parts {
@@ -22,8 +23,8 @@ pub fn digest(parts: &[&[u8]]) -> String {
     hash.finalize().to_hex()[..16].to_owned()
 }
 
-/// Returns a scene as parts: version and definitions of the program, keys of the scene, and contents of the files that
-/// it names.
+/// Returns the input of a scene's results as parts for hashing: version and definitions of the program, keys of the
+/// scene, and contents of the files that it names. `base`: folder of the scene.
 pub fn of_scene(scene: &SceneFile, base: &Path) -> Vec<Vec<u8>> {
     // A scene that cannot be written is represented by its debug form.
     let text = toml::to_string(scene).unwrap_or_else(|_| format!("{scene:?}"));
@@ -35,8 +36,8 @@ pub fn of_scene(scene: &SceneFile, base: &Path) -> Vec<Vec<u8>> {
     parts
 }
 
-/// Returns the hash of a product's data: of its description if they are computed from one, since they may not be
-/// computed yet.
+/// Returns the hash of a product's data; if they are computed from a description, that of the description, because the
+/// data may not exist yet.
 pub fn of_product(product: &Product) -> String {
     let mut text = product.system.clone();
     for state in &product.states {
@@ -50,6 +51,7 @@ pub fn of_product(product: &Product) -> String {
 }
 
 /// Returns the hash of all input of a scene's results, including products of the catalogue and layers of descriptions.
+/// `base`: folder of the scene.
 ///
 /// # Errors
 /// Returns an error if a product or a description does not exist.

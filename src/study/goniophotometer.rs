@@ -1,4 +1,4 @@
-//! Virtual goniophotometer on files: computes datasets from a system file, state by state, with indicators of their
+//! Virtual goniophotometer: computes BSDF datasets from a system description, state by state, with indicators of their
 //! quality. Finished states can be stored, so that an interrupted run can be resumed.
 
 use super::error::StudyError;
@@ -20,58 +20,59 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-/// A system file, with the location from which it names other files.
+/// System description, with the location from which relative file names in it start.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Described {
-    /// Content of the file.
+    /// Parsed content of the description.
     pub file: SystemFile,
-    /// Text of the file: all input of the computation except the files of other layers.
+    /// Text of the description: all input of the computation except the files of layers.
     pub text: String,
-    /// Location from which the description names other files.
+    /// Location from which relative file names in the description start.
     pub base: Base,
 }
 
-/// Location from which a description names other files.
+/// Location from which relative file names in a system description start.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Base {
-    /// A folder.
+    /// Folder on disk.
     Folder(PathBuf),
-    /// Built-in descriptions.
+    /// Built-in descriptions of the program.
     Builtin,
 }
 
-/// Bases and error of a computed dataset.
+/// Bases and accuracy requested for a computed dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
     /// Basis of incident directions.
     pub incident: RingBasis,
     /// Basis of emergent directions.
     pub emergent: RingBasis,
-    /// Maximum absolute error of τ and ρ for any incident direction.
+    /// Error target: absolute error of τ and ρ for any incident direction.
     pub error: f64,
-    /// Seed of random numbers.
+    /// Seed of the random numbers.
     pub seed: u64,
 }
 
 impl Request {
-    /// Whether incident directions are single ones, like the 145 of a goniophotometer; Klems patches are averaged.
+    /// Whether data are computed for single incident directions, like the 145 of a goniophotometer; for Klems patches
+    /// they are means over the patch.
     pub fn at_directions(&self) -> bool {
         self.incident == RingBasis::tregenza()
     }
 }
 
-/// A computed state.
+/// Dataset computed for one state, with its quality.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Computed {
-    /// Dataset with the four functions: transmission and reflection of both sides.
+    /// Dataset with four functions: transmission and reflection of both sides.
     pub dataset: Dataset,
-    /// Balance, reciprocity and error; `None` for a stored state of an earlier run.
+    /// Energy balance, reciprocity and error of the data; `None` for a state that an earlier run stored.
     pub quality: Option<Quality>,
-    /// Duration of the computation; 0 for a stored state. \[s\]
+    /// Computing time; 0 for a stored state. \[s\]
     pub seconds: f64,
 }
 
-/// Source of a stack's layers.
+/// Source of the layers of a stack: products of the catalogue and dataset files.
 pub trait LayerLibrary: SystemLibrary {
     /// Returns a product of the catalogue without its datasets.
     fn product(&self, key: &str) -> Result<Product, StudyError>;
@@ -81,7 +82,7 @@ pub trait LayerLibrary: SystemLibrary {
 }
 
 impl Described {
-    /// Reads a system file. Errors name the file.
+    /// Reads a system description from its file. Errors name the file.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let error = |message: String| StudyError::File { path: path.to_owned(), message };
         let bytes = files::read(path)?;
@@ -90,13 +91,13 @@ impl Described {
         Self::from_text(&text, base).map_err(|e| error(e.to_string()))
     }
 
-    /// Returns a built-in description by the name of its file.
+    /// Returns a built-in description by the name of its file; `None` if there is no such file.
     pub fn builtin(name: &str) -> Option<Self> {
         let (file, text) = builtin_system(name)?;
         Some(Self { file, text: text.to_owned(), base: Base::Builtin })
     }
 
-    /// Reads another system file that this one names.
+    /// Reads another system description, in a file that this one names.
     pub(super) fn other(&self, name: &str) -> Result<Self, StudyError> {
         match &self.base {
             Base::Folder(folder) => Self::read(&folder.join(name)),
@@ -109,13 +110,13 @@ impl Described {
         }
     }
 
-    /// Reads a layer that is described in this one's own text.
+    /// Reads the description of a layer that is contained in the text of this one.
     pub(super) fn within(&self, text: &str) -> Result<Self, StudyError> {
         let layer_error = |error: crate::formats::FormatError| StudyError::key("stack.layers", error.to_string());
         Self::from_text(text, self.base.clone()).map_err(layer_error)
     }
 
-    /// Returns the folder of the dataset files that the description names.
+    /// Returns the folder from which the description names dataset files.
     pub(super) fn folder(&self) -> &Path {
         match &self.base {
             Base::Folder(folder) => folder,
@@ -123,7 +124,8 @@ impl Described {
         }
     }
 
-    /// Creates the description from the text of a system file, which names others relative to `base`.
+    /// Creates a description from the text of a system file. `base`: location from which relative file names in it
+    /// start.
     ///
     /// # Errors
     /// Returns an error that describes what is wrong with the text.
@@ -131,7 +133,8 @@ impl Described {
         Ok(Self { file: system_toml::read(text.as_bytes())?, text: text.to_owned(), base })
     }
 
-    /// Computes one state. States stored in folder `keep` are read from there, and finished ones stored there.
+    /// Computes the dataset of one state. `keep`: folder from which stored states are read, and in which finished ones
+    /// are stored.
     pub fn measure(
         &self,
         state: &str,
@@ -171,7 +174,7 @@ impl Described {
         Ok(Computed { dataset, quality: Some(quality), seconds: start.elapsed().as_secs_f64() })
     }
 
-    /// Computes the four functions of a state in one band.
+    /// Computes the four functions of a state in one spectral band, with their quality.
     fn band(
         &self,
         band: BandName,
@@ -190,8 +193,8 @@ impl Described {
         Ok(model.examine(&setting, progress)?)
     }
 
-    /// Computes several states, as many at a time as there are threads. Progress counts finished states; for a single
-    /// state its own steps.
+    /// Computes the datasets of several states, as many at a time as there are threads. Progress counts finished
+    /// states; for a single state its own steps. `keep`: folder in which finished states are stored.
     pub fn measure_all(
         &self,
         states: &[String],
@@ -214,17 +217,17 @@ impl Described {
         Ok(done)
     }
 
-    /// Returns the metadata of the product for the catalogue.
+    /// Returns the product data (name, provenance, states) for storing the datasets in the catalogue.
     pub fn product(&self, request: &Request, datasets: &[Dataset]) -> NewProduct {
         product_of(&self.file, &self.text, self.method(request), datasets)
     }
 
-    /// Returns the description of the method by which the values are computed.
+    /// Returns a text on the method by which the data are computed, for their provenance.
     pub fn method(&self, request: &Request) -> String {
         method(&self.file.system, request.error, [request.incident.len(), request.emergent.len()])
     }
 
-    /// Returns the name of a stored state: a hash of all input of its values.
+    /// Returns the file name of a stored state: a hash of all input of its data.
     fn kept_name(&self, state: &str, request: &Request, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
         for part in [state, request.incident.name(), request.emergent.name(), "light and solar"] {
@@ -235,14 +238,14 @@ impl Described {
         Ok(format!("{}.cfsd", &hash.finalize().to_hex()[..32]))
     }
 
-    /// Returns the hash of all input of the system.
+    /// Returns the hash of all input of the system: its text and its layers.
     pub(super) fn fingerprint(&self, library: &dyn LayerLibrary) -> Result<String, StudyError> {
         let mut hash = blake3::Hasher::new();
         self.sources_into(&mut hash, library, 0)?;
         Ok(hash.finalize().to_hex().to_string())
     }
 
-    /// Hashes the text and the input of its layers.
+    /// Adds the text and the input of all layers to a hash. `depth`: level of nesting so far.
     fn sources_into(
         &self,
         hash: &mut blake3::Hasher,
@@ -280,7 +283,8 @@ impl Described {
     }
 }
 
-/// Progress that passes on cancellation alone; steps within a state would make a progress bar jump.
+/// Progress of the computation of one state among several, which only passes on cancellation, since its steps would
+/// make a progress bar jump.
 pub struct Withdrawn<'a>(pub &'a dyn Progress);
 
 impl Progress for Withdrawn<'_> {

@@ -1,4 +1,5 @@
-//! Repair of a catalogue: by the file itself, by the program, and by the files that its products were imported from.
+//! Repair of a catalogue: from the file itself, from the program, and from the files from which its products were
+//! imported.
 
 use super::files;
 use crate::catalogue::{
@@ -8,21 +9,21 @@ use crate::compute::btdf::Dataset;
 use crate::formats::package;
 use std::path::{Path, PathBuf};
 
-/// Result of a repair.
+/// Result of repairing a catalogue file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RepairResult {
     /// Path of the copy of the unrepaired file.
     pub copy: PathBuf,
-    /// Repaired items, as sentences.
+    /// Sentences about what was repaired.
     pub repaired: Vec<String>,
-    /// Lost items, as sentences.
+    /// Sentences about what was lost.
     pub lost: Vec<String>,
-    /// Health of the file after the repair.
+    /// Result of checking the file after the repair.
     pub after: Health,
 }
 
-/// Repairs the damage that `health` reports of a catalogue's file, as far as it can be restored; a copy of the
-/// unrepaired file is kept beside it.
+/// Repairs the damage that `health` reports of a catalogue file, as far as it can be restored; a copy of the unrepaired
+/// file is made beside it.
 ///
 /// # Errors
 /// Returns an error if a file cannot be read or written.
@@ -49,8 +50,8 @@ pub fn repair(path: &Path, health: &Health) -> Result<RepairResult, CatalogueErr
     Ok(RepairResult { copy, repaired, lost, after })
 }
 
-/// Restores the data of a state from the files that its product was imported from, if these still contain exactly the
-/// same data.
+/// Restores the dataset of a state from the files from which its product was imported, if these still contain exactly
+/// the same data. `hash`: hash of the dataset.
 fn regain(catalogue: &mut Catalogue, product: &str, state: &str, hash: &str) -> Result<(), CatalogueError> {
     let mut sources = Vec::new();
     let mut paths: Vec<PathBuf> = catalogue.source_paths(product)?.into_iter().map(PathBuf::from).collect();

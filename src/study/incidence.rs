@@ -1,4 +1,4 @@
-//! Incident direction that all pictures of a product use, and texts about it.
+//! Incident direction for which all pictures of a product are drawn, and texts about it.
 
 use super::facing::sun_incident;
 use super::scene_file::SceneFile;
@@ -8,18 +8,18 @@ use crate::drawing::ticks::degrees;
 use crate::texts::words as texts;
 use std::path::Path;
 
-/// Source of the incident direction.
+/// Source of the incident direction for which pictures are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Source {
-    /// Position of the sun.
+    /// Position of the sun in the scene.
     Sun,
     /// Choice of the user.
     Chosen,
-    /// Perpendicular incidence: the sun is not in front of the aperture and nothing was chosen.
+    /// Normal incidence, because the sun is not in front of the aperture and nothing was chosen.
     Normal,
 }
 
-/// An incident direction with its source.
+/// Incident direction for which pictures of a product are drawn, with its source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Incidence {
     /// Incident direction.
@@ -29,8 +29,8 @@ pub struct Incidence {
 }
 
 impl Incidence {
-    /// Returns the direction that tiles show in a scene: the chosen one, else that of the sun, else perpendicular
-    /// incidence.
+    /// Returns the incident direction for which pictures of a scene are drawn: the chosen one, else that of the sun,
+    /// else normal incidence. `base`: folder of the scene.
     pub fn shown(chosen: Option<Incident>, scene: &SceneFile, base: &Path) -> Self {
         let of = |direction, source| Self { direction, source };
         match (chosen, sun_incident(scene, base)) {
@@ -40,7 +40,7 @@ impl Incidence {
         }
     }
 
-    /// Returns the name of the source.
+    /// Returns the translated name of the source.
     pub fn name(&self) -> &'static str {
         match self.source {
             Source::Sun => texts::THE_SUN.get(),
@@ -61,7 +61,8 @@ impl Incidence {
     }
 }
 
-/// Formats a direction as "θ 49°, φ 98°": θ from the façade's normal, φ from the right as seen from outside towards up.
+/// Formats an incident direction as "θ 49°, φ 98°": θ from the façade's outward normal, φ from the right (seen from
+/// outside) towards up.
 pub fn direction_text(d: Dir<Facade>) -> String {
     // Rounded first: just below 360° is 0° again.
     let phi = d.phi().to_degrees().round() % 360.0;

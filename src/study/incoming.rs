@@ -1,4 +1,5 @@
-//! Light at a scene's aperture: sun paths over the hemisphere, and the split of the transmitted flux.
+//! Light at a scene's aperture: paths of the sun over the hemisphere of incident directions, and the split of the
+//! transmitted flux by zones of the room.
 
 use super::facing::incident;
 use super::moment;
@@ -9,13 +10,14 @@ use crate::compute::direction::{Incident, Surface};
 use crate::drawing::flux_split::FluxSplit;
 use glam::DVec3;
 
-/// Elevations between the zones of the flux split, from top to bottom. \[°\]
+/// Elevations of emergent directions that divide the zones of the flux split: ceiling above the first, then eyes, work
+/// plane, and floor below the last. \[°\]
 const LIMITS: [f64; 3] = [10.0, -10.0, -45.0];
 
-/// Hours of a day with the incident directions of the sun.
+/// Path of the sun over a day: hours of local standard time, each with the incident direction of the sun.
 pub type SunPath = Vec<(f64, Incident)>;
-/// Returns the sun on the 21st of each month while it is up, by hours; positions behind the façade divide a path in
-/// two.
+/// Returns the paths of the sun on the 21st of each month while it is up, in steps of a quarter of an hour. Incident
+/// directions behind the façade are included.
 pub fn sun_paths(scene: &SceneFile, place: Option<Place>) -> Vec<SunPath> {
     let Some(place) = place else { return Vec::new() };
     let year = moment::of(scene).map_or(2026, |time| time.year());
@@ -31,7 +33,9 @@ pub fn sun_paths(scene: &SceneFile, place: Option<Place>) -> Vec<SunPath> {
         .collect()
 }
 
-/// Returns the shares of the light from one direction that reach the zones; their sum is τ.
+/// Returns the shares of the light incident from one direction that leave towards the zones of the room: ceiling, eyes,
+/// work plane and floor. Their sum is the transmittance τ. `surface`: whether the aperture is in the façade or the
+/// roof.
 pub fn flux_split(btdf: &Btdf, incident: Incident, surface: Surface) -> FluxSplit {
     let up = surface.facade_from_room(DVec3::Z);
     let shares = zone_shares(btdf, incident, up, LIMITS.map(f64::to_radians));

@@ -1,4 +1,4 @@
-//! Files that a scene names, with those that they name: input of its results.
+//! Files that a scene names, and those named in these: input of the scene's results.
 
 use super::files;
 use super::luminaires::{self, INDEX};
@@ -8,7 +8,7 @@ use crate::formats::encoding::decode;
 use crate::formats::system_toml::{MOST_NESTED, is_system_file};
 use std::path::{Path, PathBuf};
 
-/// Returns the existing files that a scene names, by any key. `base`: folder that relative paths start from.
+/// Returns the existing files that a scene names, by any key. `base`: folder from which relative paths start.
 pub fn inputs_of(scene: &SceneFile, base: &Path) -> Vec<PathBuf> {
     let mut list = Vec::new();
     // A scene that cannot be written as TOML did not come from a file.
@@ -18,7 +18,8 @@ pub fn inputs_of(scene: &SceneFile, base: &Path) -> Vec<PathBuf> {
     list
 }
 
-/// Returns the scene with absolute paths of the files that it names, for use in another folder.
+/// Returns the scene with absolute paths of the files that it names, so that it can be used in another folder. `base`:
+/// folder from which relative paths start.
 pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
     fn absolute(value: &mut toml::Value, base: &Path) {
         match value {
@@ -39,7 +40,8 @@ pub fn with_absolute_names(scene: &SceneFile, base: &Path) -> SceneFile {
     value.try_into().unwrap_or_else(|_| scene.clone())
 }
 
-/// Whether a scene may name files by relative paths. Decided by its texts alone; no file is looked for.
+/// Whether a scene may name files by relative paths. It is decided by the texts of the scene alone; no file is looked
+/// for.
 pub fn names_files(scene: &SceneFile) -> bool {
     fn within(value: &toml::Value) -> bool {
         match value {
@@ -52,6 +54,8 @@ pub fn names_files(scene: &SceneFile) -> bool {
     toml::Value::try_from(scene).is_ok_and(|value| within(&value))
 }
 
+/// Adds the existing files that are named in a value of a scene or description to `list`, and those named in
+/// description files. `depth`: level of nesting so far.
 fn named_in(value: &toml::Value, base: &Path, depth: usize, list: &mut Vec<PathBuf>) {
     match value {
         toml::Value::String(word) if !word.is_empty() => {

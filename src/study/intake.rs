@@ -17,31 +17,31 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 /// Maximum number of files that are read from a folder.
 const MOST_FILES: usize = limits::IMPORTED_FILES;
-/// Maximum depth of nested folders.
+/// Maximum depth to which folders within folders are searched.
 const DEPTH: usize = 6;
-/// Maximum depth of nested archives.
+/// Maximum depth to which archives within archives are unpacked.
 const ARCHIVES: usize = 2;
 /// Maximum size of all unpacked archives together. \[bytes\]
 const MOST_UNPACKED: u64 = limits::UNPACKED_BYTES;
 
-/// Function that reads the datasets of a file, from name and bytes.
+/// Function that reads the datasets of a file from its name and its bytes.
 pub type ReadDataset = fn(&str, &[u8]) -> Result<SourceFile, FormatError>;
 
-/// Kind of a file that is not a dataset and is opened separately.
+/// Kind of a file that is not a dataset, and that is opened separately instead of imported.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Single {
-    /// Description of a system.
+    /// Description of a system, `.system.toml`.
     System,
-    /// Scene.
+    /// Scene file.
     Scene,
-    /// Control curve.
+    /// Control curve, as CSV.
     Curve,
-    /// Year of weather.
+    /// Weather file.
     Weather,
 }
 
 impl Single {
-    /// Returns the name of the kind.
+    /// Returns the name of the kind with its article, in English, for messages.
     pub const fn words(self) -> &'static str {
         match self {
             Self::System => "a system",
@@ -52,35 +52,35 @@ impl Single {
     }
 }
 
-/// A product of a package.
+/// Product that was found in a package.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Packed {
-    /// Name of the package, as messages name it.
+    /// Name of the package, for messages.
     pub package: String,
-    /// Datasets, one per state.
+    /// Datasets of the product, one per state.
     pub datasets: Vec<Dataset>,
-    /// Metadata of the product in the package.
+    /// Product data in the package: name, maker, provenance, states.
     pub meta: NewProduct,
 }
 
-/// Result of an import.
+/// Result of an import: what was found in the files, and what could not be read.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Taken {
-    /// Dataset files, in order.
+    /// Dataset files that were read, in the order in which they were found.
     pub sources: Vec<SourceFile>,
-    /// Products of packages.
+    /// Products that were found in packages.
     pub packed: Vec<Packed>,
-    /// Files that the user named and that are opened separately: the first of each kind.
+    /// Files that the user selected and that are opened separately instead of imported: the first of each kind.
     pub singles: Vec<(Single, PathBuf)>,
-    /// Messages on files that could not be read: file, place, error, and what is expected.
+    /// Messages on files that could not be read: file, location in it, error, and what is expected.
     pub failures: Vec<String>,
-    /// Files that are not datasets, with the reason.
+    /// Names of files that are not datasets, each with the reason why it was not imported.
     pub left_out: Vec<String>,
     /// Whether the import was stopped before all files were read.
     pub stopped: bool,
 }
 
-/// Kind of a file by its name.
+/// Kind of a file according to its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Dataset,
@@ -92,6 +92,7 @@ enum Kind {
 }
 
 impl Kind {
+    /// Returns the kind of a file according to the end of its name.
     fn of(name: &str) -> Self {
         let lower = name.to_ascii_lowercase();
         let ends = |ending: &str| lower.ends_with(ending);
@@ -118,34 +119,34 @@ impl Kind {
     }
 }
 
-/// A file and its origin.
+/// File to be imported, with its origin.
 struct Given {
-    /// Path on disk; for a file in an archive that of the archive.
+    /// Path on disk; for a file in an archive, the path of the archive.
     path: PathBuf,
-    /// Archive that contains the file.
+    /// Archive that contains the file; `None` for a file on disk.
     within: Option<Within>,
     /// Name of the file in messages.
     name: String,
-    /// Whether the user named the file, so that it was not found in a folder or archive.
+    /// Whether the user selected the file itself, so that it was not found in a folder or archive.
     named: bool,
 }
 
-/// Position of a file in an archive.
+/// Position of a file within an archive.
 #[derive(Clone)]
 struct Within {
     archive: Arc<Vec<u8>>,
     index: usize,
-    /// Path of the file as if archives were folders.
+    /// Path of the file if archives were folders.
     place: PathBuf,
 }
 
 impl Given {
-    /// Returns the name without folders.
+    /// Returns the name of the file without folders.
     fn file_name(&self) -> &str {
         self.name.rsplit(['/', '\\']).next().unwrap_or(&self.name)
     }
 
-    /// Returns the folder of the file: files of one folder may be states of one product.
+    /// Returns the folder of the file, because only files in the same folder may be states of one product.
     fn folder(&self) -> String {
         let place = self.within.as_ref().map_or(&self.path, |within| &within.place);
         place.parent().map(|folder| folder.display().to_string()).unwrap_or_default()
@@ -165,7 +166,7 @@ impl Given {
     }
 }
 
-/// Result of reading one file.
+/// Result of reading one file of an import.
 enum Read {
     Source(Box<SourceFile>),
     Packed(Vec<Packed>),
@@ -174,7 +175,7 @@ enum Read {
     Stopped,
 }
 
-/// Files of the paths, including those in folders and archives; skipped ones are listed with the reason.
+/// List of all files to be imported, including those in folders and archives; skipped ones are listed with the reason.
 struct Listing {
     files: Vec<Given>,
     left_out: Vec<String>,
@@ -185,6 +186,7 @@ struct Listing {
 }
 
 impl Listing {
+    /// Lists the files in the paths that the user selected.
     fn of(paths: &[PathBuf], progress: &dyn Progress) -> Self {
         let (files, left_out, failures) = (Vec::new(), Vec::new(), Vec::new());
         let mut list = Self { files, left_out, failures, full: false, left: AtomicU64::new(MOST_UNPACKED) };
@@ -212,6 +214,8 @@ impl Listing {
         list
     }
 
+    /// Adds the files of a folder and of the folders in it. `root`: folder that the user selected, for relative names;
+    /// `depth`: number of further levels that are searched.
     fn walk(&mut self, root: &Path, folder: &Path, depth: usize, progress: &dyn Progress) {
         let relative = |path: &Path| path.strip_prefix(root).unwrap_or(path).display().to_string();
         let entries = match std::fs::read_dir(folder) {
@@ -249,7 +253,8 @@ impl Listing {
         }
     }
 
-    /// Adds the files of an archive, or the archive itself if it is a package by another name.
+    /// Adds the files of an archive, or the archive itself if it is a package under another name. `depth`: number of
+    /// further levels of archives that are unpacked.
     fn unpack(&mut self, file: &Given, depth: usize) {
         let bytes = match file.bytes(&self.left) {
             Ok(bytes) => Arc::new(archive::with_distinct_names(bytes)),
@@ -287,7 +292,7 @@ impl Listing {
     }
 }
 
-/// Describes a luminaire file.
+/// Describes the content of a luminaire file in one sentence, for the reason why it is not imported.
 fn luminaire(name: &str, bytes: &[u8]) -> String {
     let lower = name.to_ascii_lowercase();
     let (format, read): (_, Option<Result<Luminaire, FormatError>>) = if lower.ends_with(".ldt") {
@@ -309,12 +314,14 @@ fn luminaire(name: &str, bytes: &[u8]) -> String {
     format!("a luminaire ({format}){who}; not a façade system")
 }
 
-/// Whether it is XML whose root element says that it is a luminaire.
+/// Whether a file is XML whose root element says that it describes a luminaire.
 fn is_luminaire_xml(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(2048)];
     head.windows(8).any(|window| window == b"<IESTM33")
 }
 
+/// Reads one file by its kind. `left`: remaining size to which archives may be unpacked \[bytes\]; `read`: reads the
+/// datasets of a file.
 fn read_one(file: &Given, left: &AtomicU64, read: ReadDataset) -> Read {
     let name = &file.name;
     let kind = Kind::of(name);

@@ -1,5 +1,6 @@
-//! Error of interpolation between the incident directions of a scene's datasets: every direction is left out and
-//! predicted from its neighbours. Takes some seconds per dataset, and no result depends on it: computed on request.
+//! Error of interpolation between the incident directions of a scene's datasets, by cross-validation: the data of every
+//! direction are predicted from those of its neighbours and compared with the actual ones. Takes some seconds per
+//! dataset, and no result depends on it, so that it is computed on request.
 
 use super::error::StudyError;
 use super::scene::Scene;
@@ -12,20 +13,22 @@ use crate::compute::incidence::schemes::SunScheme;
 use crate::texts::{fixed, words as texts};
 use std::sync::Arc;
 
-/// Result of leaving out directions of one dataset.
+/// Result of the cross-validation of one dataset: errors of interpolation between its incident directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeavingOut {
-    /// Label of the system.
+    /// Label of the system to which the dataset belongs.
     pub label: String,
-    /// Errors by direction.
+    /// Errors by direction: shares of the transmitted flux that a prediction from the neighbours sends in wrong
+    /// directions.
     pub left_out: LeftOut,
-    /// Maximum over the apertures of the share of the sun's flux that is misplaced at the data's own spacing, as stated
-    /// for the scene's scheme; `None` if the sun does not reach them.
+    /// Share of the transmitted sunlight that interpolation to the sun's direction is stated to send in wrong
+    /// directions, with the scheme of the scene and the actual spacing of the data's directions; the largest over the
+    /// apertures. `None` if the sun does not shine on them.
     pub sun: Option<f64>,
 }
 
-/// Computes the errors of every dataset of the scene that is known at single directions and interpolated between them,
-/// each once.
+/// Cross-validates every dataset of the scene that is given at single incident directions and interpolated between
+/// them, each once.
 pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<LeavingOut>, StudyError> {
     let mut done: Vec<(&Arc<Indicatrices>, Model, LeavingOut)> = Vec::new();
     for (index, aperture) in scene.apertures.iter().enumerate() {
@@ -57,7 +60,8 @@ pub fn leaving_out(scene: &Scene, progress: &dyn Progress) -> Result<Vec<Leaving
 }
 
 impl LeavingOut {
-    /// Describes the errors, and says where another scheme than responses would have been better.
+    /// Returns sentences on the errors, which name other schemes where they would have predicted a direction better
+    /// than the default one, responses.
     pub fn sentences(&self) -> String {
         let count = self.left_out.directions().count();
         let percent = |share: f64| format!("{} %", fixed(100.0 * share, 1));

@@ -1,7 +1,7 @@
 //! Library from a scene to its results: what the window, the command line and other programs call.
 //!
-//! [`scene_file`] is the scene as typed, [`scene`] the resolved scene, [`plan`] the stages that it needs, [`session`]
-//! the computations.
+//! [`scene_file`] is the scene file as typed, [`scene`] the resolved scene, [`plan`] the stages that it needs,
+//! [`session`] the computations.
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 

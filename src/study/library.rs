@@ -1,5 +1,5 @@
-//! Library of systems that programs use: ideal systems, dataset files (stored as long as they do not change), the
-//! catalogue.
+//! Library from which programs load the systems of scenes: ideal systems, dataset files (stored as long as they do not
+//! change), descriptions, and the catalogue.
 
 use super::builtin;
 use super::by_description::system_model_from_text;
@@ -20,11 +20,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
-/// Hemispherical transmittance above which the values are assumed to be in another unit: no measuring error is as
-/// large.
+/// Hemispherical transmittance above which the values of a dataset are assumed to be in another unit, because no
+/// measuring error is as large.
 const OTHER_UNIT: f64 = 1.5;
 
-/// Files, ideal systems and a catalogue that is opened when first needed.
+/// Library of systems: dataset and description files, ideal systems, and a catalogue that is opened when first needed.
 #[derive(Default)]
 pub struct Library {
     files: Mutex<HashMap<PathBuf, Loaded>>,
@@ -35,25 +35,26 @@ pub struct Library {
     obstructions: LitObstructions,
 }
 
-/// Described systems by hash of their input, state, and extent of the data.
+/// Described systems, each with the hash of its input, its state, and the extent of its data.
 type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
-/// Optical models by hash of the description, and state.
+/// Optical models, each with the hash of its description, and its state.
 type ModelCache = VecDeque<((String, String), Option<SystemModel>)>;
-/// Maximum number of stored described systems: two moving products of 21 states.
+/// Maximum number of stored described systems: two moving products with 21 states each.
 const MOST_DESCRIBED: usize = 42;
 /// Maximum number of descriptions whose optical models are stored: of a ranking's hundred products those in progress,
 /// and as many as scenes and comparisons contain.
 const MOST_ANSWERING: usize = 6;
 
-/// Systems of a file, valid as long as its time and length do not change.
+/// Systems of a dataset file, valid as long as time and length of the file do not change.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
 
 impl Library {
-    /// Creates a library with the catalogue at a path; `None`: the user's own.
+    /// Creates a library with the catalogue at a path; `None`: the catalogue of the user.
     pub fn with_catalogue(path: Option<&Path>) -> Self {
         Self { catalogue_path: path.map(Path::to_owned), ..Self::default() }
     }
 
+    /// Calls a function with the catalogue, which is opened if it is not open yet.
     fn in_catalogue<T>(&self, ask: impl FnOnce(&mut Catalogue) -> Result<T, CatalogueError>) -> Result<T, StudyError> {
         let mut open = self.catalogue.lock().unwrap_or_else(PoisonError::into_inner);
         let catalogue_error = |error: CatalogueError| StudyError::Catalogue(error.to_string());
@@ -70,8 +71,8 @@ impl Library {
         answer
     }
 
-    /// Returns products by search words as in the window, without words all; and the search's notes on words and
-    /// damaged products.
+    /// Returns the products that match search words, by the same rules as the window (without words all products), and
+    /// the result of the search with its notes on words and damaged products.
     ///
     /// # Errors
     /// Returns an error if the catalogue cannot be read.
@@ -83,7 +84,7 @@ impl Library {
         })
     }
 
-    /// Computes the state of a built-in product that is needed before the catalogue contains its data, and stores them.
+    /// Computes and stores the data of a built-in product's state if the catalogue does not contain them yet.
     fn provide(&self, product: &str, state: Option<&str>) -> Result<(), StudyError> {
         let Some(state) = self.in_catalogue(|catalogue| catalogue.to_compute(product, state))? else { return Ok(()) };
         let product = self.in_catalogue(|catalogue| catalogue.product(product))?;
@@ -93,7 +94,8 @@ impl Library {
 }
 
 impl Library {
-    /// Returns a state of a described system, computed once as long as its description does not change.
+    /// Returns a state of the system in a description file; it is computed once, as long as the description does not
+    /// change.
     fn load_description(&self, path: &Path, state: Option<&str>, need: Need) -> Result<Arc<System>, StudyError> {
         let described = Described::read(path)?;
         let key = (described.fingerprint(self)?, state.map(str::to_owned), need);
@@ -112,8 +114,9 @@ impl Library {
         Ok(system)
     }
 
-    /// Returns the optical model by a dataset's own description; stored, since its solutions are stored with it. `None`
-    /// without a description, or if it names layers that are not available: then only the data are known.
+    /// Returns the optical model for the description that a dataset carries; it is stored, together with its solutions.
+    /// `None` if there is no description, or if it names layers that are not available, so that only the data are
+    /// known.
     pub fn model_of(&self, dataset: &Dataset) -> Option<SystemModel> {
         let DescribedState { text, state } = dataset.described.as_ref()?;
         let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
@@ -245,7 +248,7 @@ impl SystemLibrary for Library {
     }
 }
 
-/// Returns the named state of a family, or its first.
+/// Returns the state of a family with a key, or the first one if no key is given.
 fn family_state<'a>(states: &'a [FamilyState], state: Option<&str>) -> Result<&'a FamilyState, StudyError> {
     let found = match state {
         None => states.first(),

@@ -1,5 +1,6 @@
-//! Choice of the number of tiles and the step of the tables: the aperture's own room lit by the files as a host uses
-//! them is compared with the same room lit by the aperture, over fields of half a metre.
+//! Choice of the number of tiles of a luminaire set and of the step of its tables: illuminances by the luminaires,
+//! computed in the manner of a host program, are compared with those by the aperture itself, in the same room, over
+//! square fields of half a metre.
 
 use super::error::StudyError;
 use super::luminaire_tiles::{Place, tables};
@@ -17,46 +18,46 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Maximum root mean square of the fields' relative errors for `auto`.
+/// Maximum root mean square of the fields' relative errors for which `auto` accepts a set.
 pub const TARGET: f64 = 0.01;
-/// Maximum relative error of the sum over all fields for `auto`.
+/// Maximum relative error of the sum over all fields for which `auto` accepts a set.
 const TARGET_SUM: f64 = 0.005;
-/// Maximum side of a tile with beams: a host that divides areas finely blurs the edges of what they light by half a
-/// tile. \[m\]
+/// Maximum side of a tile if the aperture emits beams: a host that divides luminous areas finely blurs the edges of lit
+/// areas by half a tile. \[m\]
 const LONGEST_OF_BEAMS: f64 = 0.2;
-/// Side of a field. \[m\]
+/// Side of a square field over which illuminances are averaged. \[m\]
 const FIELD: f64 = 0.5;
-/// Distance of the points in a field. \[m\]
+/// Distance between the points of a field. \[m\]
 const PITCH: f64 = 0.1;
 /// Number of points along a side of a field.
 const POINTS: usize = 5;
-/// Share of the mean illuminance that is the minimum denominator of a field's relative error.
+/// Share of the mean illuminance of all fields that is the minimum denominator of a field's relative error.
 const DARK: f64 = 0.05;
-/// Maximum sides of tiles, tried one after the other. \[m\]
+/// Maximum sides of tiles that are tried, one after the other. \[m\]
 const LONGEST: [f64; 9] = [f64::INFINITY, 1.5, 1.0, 0.7, 0.5, 0.35, 0.25, 0.175, 0.125];
 /// Maximum number of tiles with `auto`.
 const MOST_TILES: usize = 256;
 
-/// Accuracy of a room lit by luminaire files.
+/// Accuracy of the illuminances in a room that is lit by luminaire files instead of the aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reached {
-    /// Relative error of the sum over all fields, compared with the aperture itself.
+    /// Relative error of the sum of the illuminances of all fields.
     pub sum: f64,
-    /// Root mean square of the fields' relative errors, on the surface where it is largest.
+    /// Root mean square of the fields' relative errors, on the surface of the room where it is largest.
     pub rms: f64,
-    /// Largest relative error of a field, with sign.
+    /// Relative error of the field where it is largest, with its sign.
     pub worst: f64,
-    /// Number of fields.
+    /// Number of fields that were compared.
     pub fields: usize,
 }
 
 impl Reached {
-    /// Whether the errors are within the limits for `auto`.
+    /// Whether the errors are within the limits for which `auto` accepts a set.
     pub fn holds(&self) -> bool {
         self.rms <= TARGET && self.sum.abs() <= TARGET_SUM
     }
 
-    /// Returns a sentence for the header of a file.
+    /// Returns a sentence on the accuracy for the header of a luminaire file, in English.
     pub fn sentence(&self) -> String {
         format!(
             "Direct light of all files together on {} fields of {FIELD} m x {FIELD} m of the scene's room, on the work plane \
@@ -70,7 +71,7 @@ impl Reached {
     }
 }
 
-/// One field.
+/// Square field on a surface of the room, with the points at which illuminances are averaged.
 struct Field {
     surface: usize,
     sensors: Vec<Sensor>,
@@ -78,13 +79,14 @@ struct Field {
     wanted: f64,
 }
 
-/// Illuminances by the aperture itself on fields of its room.
+/// Reference for choosing tiles: mean illuminances by the aperture itself on fields of its room.
 pub struct Probe {
     fields: Vec<Field>,
 }
 
 impl Probe {
-    /// Computes the light of one aperture, counted from 0; `without_beam`: without its undeviated beam.
+    /// Computes the illuminances by one aperture, counted from 0. `without_beam`: whether its undeviated beam is left
+    /// out.
     ///
     /// # Errors
     /// Returns an error if cancelled.
@@ -122,7 +124,8 @@ impl Probe {
         Ok(Self { fields })
     }
 
-    /// Returns the accuracy of a room lit by tiles.
+    /// Returns the accuracy of the illuminances by luminaires. `tables`: tiles of the aperture with their intensity
+    /// tables.
     pub(super) fn reached(&self, surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Reached {
         let lamps = lamps(surface, tables);
         let light = |sensor: &Sensor| -> f64 {
@@ -151,7 +154,7 @@ impl Probe {
     }
 }
 
-/// Returns the root mean square of the errors on a surface.
+/// Returns the root mean square of the relative errors of the fields on one surface of the room.
 fn rms(fields: &[Field], errors: &[f64], surface: usize) -> f64 {
     let own =
         || fields.iter().zip(errors).filter(|(field, _)| field.surface == surface).map(|(_, error)| error * error);
@@ -167,7 +170,7 @@ struct FieldGrid {
 }
 
 impl FieldGrid {
-    /// Returns the points of the field.
+    /// Returns the points of the field, with the normal of its surface.
     fn sensors(&self) -> Vec<Sensor> {
         let half = (POINTS / 2) as i32;
         let at = |i: i32, j: i32| {
@@ -178,7 +181,7 @@ impl FieldGrid {
     }
 }
 
-/// Number of surfaces: work plane, three walls and the ceiling.
+/// Number of surfaces on which fields lie: work plane, three walls and the ceiling.
 const SURFACES: usize = 5;
 
 /// Returns the fields on the work plane, on the walls above it and on the ceiling.
@@ -211,7 +214,7 @@ fn grids(room: DVec3) -> Vec<FieldGrid> {
     list
 }
 
-/// Returns the tables as a host uses them.
+/// Returns the luminaires for the tables, with which a host program computes illuminances.
 fn lamps(surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Vec<Lamp> {
     let mut last: Option<(&Arc<CGammaTable>, Arc<Intensities>)> = None;
     let mut list = Vec::with_capacity(tables.len());
@@ -226,18 +229,18 @@ fn lamps(surface: Surface, tables: &[(Tile, Arc<CGammaTable>)]) -> Vec<Lamp> {
     list
 }
 
-/// Chosen tiles and tables.
+/// Tiles and intensity tables that were chosen for an aperture, with their accuracy.
 pub(super) struct Choice {
     pub tiling: Tiling,
     pub step: Step,
     pub reached: Reached,
     pub tables: Vec<(Tile, Arc<CGammaTable>)>,
-    /// Whether each tile has its own narrow scattered light.
+    /// Whether each tile has its own table for narrowly scattered light.
     narrow: bool,
 }
 
-/// Chooses the fewest tiles, and the widest step with them, that meet the limits; else the best that were found.
-/// `step`: given step.
+/// Chooses the smallest number of tiles, and the widest step of the tables with them, that meet the limits of accuracy;
+/// else the best that were found. `step`: step that the user gave.
 ///
 /// # Errors
 /// Returns an error if cancelled.

@@ -1,5 +1,5 @@
-//! The luminaire file of an aperture: format by extension, orientation and step by choice or from the data, and a
-//! header that says which scene, sky and product the light belongs to.
+//! Luminaire file of an aperture: format by file extension, orientation and angular step as chosen or from the data,
+//! and a header that names scene, sky and product.
 
 use super::moment;
 use super::scene_file::{IdealKind, RANKED, SceneFile, SkyModelKey, SystemKeys, TimeKey};
@@ -19,27 +19,27 @@ pub enum LidFormat {
     Eulumdat,
     /// IES LM-63, `.ies`.
     Ies(IesEdition),
-    /// Table of C, γ and intensity \[cd\], `.csv`.
+    /// Table of C, γ and luminous intensity \[cd\], `.csv`.
     Csv,
-    /// Polar diagram, `.png`.
+    /// Polar diagram of the intensities, `.png`.
     Png,
-    /// Polar diagram, `.svg`.
+    /// Polar diagram of the intensities, `.svg`.
     Svg,
 }
 
-/// Error of a luminaire file.
+/// Error when a luminaire file is made.
 #[derive(Debug, thiserror::Error)]
 pub enum LuminaireFileError {
-    /// The extension is not that of a supported format.
+    /// File extension that is not that of a supported format.
     #[error("extension \"{0}\" names no format for a luminous-intensity distribution (ldt, ies, csv, png or svg)")]
     Extension(String),
-    /// The diagram could not be encoded.
+    /// Polar diagram that could not be encoded as an image.
     #[error("the diagram could not be encoded: {0}")]
     Image(#[from] png::EncodingError),
 }
 
 impl LidFormat {
-    /// Returns the format by a file's extension; `edition` is used for `.ies` only.
+    /// Returns the format for a file's extension. `edition`: edition of IES LM-63 for `.ies`.
     pub fn of(path: &Path, edition: IesEdition) -> Result<Self, LuminaireFileError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
@@ -53,25 +53,25 @@ impl LidFormat {
     }
 }
 
-/// A luminaire file in memory, with its properties.
+/// Luminaire file in memory, with its properties.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LuminaireFile {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Luminous flux of the aperture. \[lm\]
+    /// Luminous flux of the aperture into the room. \[lm\]
     pub flux: Estimate,
-    /// Relative correction of the table's flux.
+    /// Factor by which the intensities of the table were multiplied so that its zonal sum is the flux of the aperture.
     pub scaled_by: f64,
-    /// Largest luminous intensity of the table. \[cd\]
+    /// Largest luminous intensity in the table. \[cd\]
     pub peak: f64,
-    /// Orientation of the luminaire.
+    /// Orientation of the luminaire: directions of C = 0 and γ = 0 in the room.
     pub aim: Aim,
-    /// Step of C and γ.
+    /// Step of the table in C and γ.
     pub step: Step,
 }
 
-/// Tabulates and writes a distribution. Without `aim` the aperture's real orientation is used, without `step` one that
-/// suits the data.
+/// Tabulates a luminous intensity distribution and encodes it as a luminaire file. `text`: header; `aim`: orientation,
+/// `None` for that of the aperture; `step`: angular step, `None` for one that suits the data.
 pub fn encode(
     lid: &Lid,
     text: Description,
@@ -87,7 +87,7 @@ pub fn encode(
     Ok(LuminaireFile { bytes, flux: table.flux, scaled_by: table.scaled_by, peak: luminaire.peak(), aim, step })
 }
 
-/// Encodes a luminaire in one of the formats.
+/// Encodes the table of a luminaire in one of the formats.
 pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u8>, LuminaireFileError> {
     Ok(match format {
         LidFormat::Eulumdat => eulumdat::write(luminaire),
@@ -98,7 +98,8 @@ pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u
     })
 }
 
-/// Returns the header of a luminaire file: scene, product, sky, sun and time, as the scene file states them.
+/// Returns the header of a luminaire file, in English, from the keys of the scene file: scene, product, sky, sun and
+/// time. `base`: folder of the scene.
 ///
 /// `aperture` counts from 0 and must exist; `date` is the day of issue.
 pub fn describe(scene_name: &str, scene: &SceneFile, base: &Path, aperture: usize, date: &str) -> Description {
@@ -148,7 +149,7 @@ pub fn describe(scene_name: &str, scene: &SceneFile, base: &Path, aperture: usiz
     }
 }
 
-/// Returns place, time, sky, sun and façade in short form, for one line of EULUMDAT.
+/// Returns place, time, sky, sun and façade of a scene in short form, for one line of EULUMDAT.
 fn situation(scene: &SceneFile, base: &Path) -> String {
     let SceneFile { site, sky, .. } = scene;
     let mut parts = Vec::new();
@@ -172,6 +173,7 @@ fn with_state(name: String, state: Option<&str>) -> String {
     state.map_or_else(|| name.clone(), |state| format!("{name}, state {state}"))
 }
 
+/// Returns a remark on the sky model and the illuminances of a scene, for the header of a luminaire file.
 fn sky_remark(scene: &SceneFile) -> String {
     let sky = &scene.sky;
     let model = match sky.model {

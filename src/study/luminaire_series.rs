@@ -1,4 +1,5 @@
-//! Series of luminaire files: the scene on the 21st of months, at several hours, in several states.
+//! Series of luminaire files: the same scene on the 21st of several months, at several hours, in several states of its
+//! system.
 
 use super::error::StudyError;
 use super::moment;
@@ -7,39 +8,39 @@ use super::sun_position::{Place, parse_local_time};
 use crate::texts::ascii_letters;
 use std::path::Path;
 
-/// Day of every month.
+/// Day of the month for which the scenes of a series are computed.
 const DAY: u8 = 21;
 
-/// Values to be varied; an empty list leaves the scene's own.
+/// Values that a series varies; an empty list stands for the value in the scene.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Series {
     /// Months, 1 to 12.
     pub months: Vec<u8>,
-    /// Hours by the scene's clock. \[h\]
+    /// Hours of the day by the scene's clock. \[h\]
     pub hours: Vec<f64>,
     /// Keys of the system's states.
     pub states: Vec<String>,
 }
 
-/// One member of a series.
+/// One scene of a series, with its names.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
-    /// Name in the index: day and hour, and state.
+    /// Name in the index of luminaire files: day and hour, and state.
     pub name: String,
-    /// Name as a part of a file name.
+    /// Name in the form in which it is part of file names.
     pub tag: String,
-    /// Scene of the member.
+    /// Scene with the member's time and state.
     pub scene: SceneFile,
 }
 
 impl Series {
-    /// Whether nothing is varied.
+    /// Whether the series varies nothing, so that it consists of the scene itself.
     pub fn is_empty(&self) -> bool {
         self.months.is_empty() && self.hours.is_empty() && self.states.is_empty()
     }
 
-    /// Returns the members, states varying fastest; and the times that are left out because the sun is below the
-    /// horizon.
+    /// Returns the scenes of the series, states varying fastest; and the times that are left out because the sun is
+    /// below the horizon.
     ///
     /// # Errors
     /// Returns an error for months or hours out of range, for times without the scene's `sky.time` and site, or for
@@ -82,7 +83,8 @@ impl Series {
         Ok((list, dark))
     }
 
-    /// Returns the times as text, `None` for the scene's own; and those without sun.
+    /// Returns the times of the series as text (`None` for that of the scene itself), and those that are left out
+    /// because the sun is down.
     fn times(&self, scene: &SceneFile, base: &Path) -> Result<(Vec<Option<String>>, Vec<String>), StudyError> {
         if self.months.is_empty() && self.hours.is_empty() {
             return Ok((vec![None], Vec::new()));
@@ -130,7 +132,7 @@ impl Series {
     }
 }
 
-/// Returns the scene at a time.
+/// Returns the scene at a time, given as text.
 fn at(scene: &SceneFile, time: &str) -> SceneFile {
     let mut scene = scene.clone();
     scene.sky.time = Some(TimeKey::Text(time.to_owned()));
@@ -138,7 +140,7 @@ fn at(scene: &SceneFile, time: &str) -> SceneFile {
     scene
 }
 
-/// Returns words as a part of a file name.
+/// Returns words in the form in which they are part of file names.
 fn tag(words: &[&str]) -> String {
     let plain = |word: &str| -> String {
         // Year and colon are not needed in a file name.

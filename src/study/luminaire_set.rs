@@ -1,6 +1,6 @@
-//! Luminaire files of an aperture, which light other programs' rooms as the aperture lights its own: the aperture is
-//! divided into tiles, the undeviated beam is left out if the host computes direct sun by itself, and an index lists
-//! all positions.
+//! Luminaire files of an aperture, which light a room in other programs as the aperture lights it: the aperture is
+//! divided into tiles with a file each, the undeviated beam is left out if the host program computes direct sun itself,
+//! and an index lists all positions.
 
 use super::error::StudyError;
 use super::luminaire_choice::{self, Probe, Reached};
@@ -20,18 +20,18 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Division of the aperture into luminaires.
+/// Division of an aperture into luminaires, one for each tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tiles {
-    /// One file, with beams on the four nodes around them.
+    /// No division: one file for the aperture; beams are put on the four nodes of the table around their direction.
     None,
-    /// Minimum number of tiles for which the error of a room lit by them is within [`luminaire_choice::TARGET`].
+    /// Smallest number of tiles for which the error of a room lit by them is within [`luminaire_choice::TARGET`].
     Auto,
     /// Given number of columns and rows.
     Fixed(Tiling),
 }
 
-/// Maximum number of tiles along a side.
+/// Maximum number of tiles along a side of the aperture.
 const MOST: usize = 40;
 
 impl std::str::FromStr for Tiles {
@@ -63,27 +63,27 @@ impl std::fmt::Display for Tiles {
     }
 }
 
-/// Options of the luminaire files.
+/// Options for making luminaire files.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LuminaireOptions {
     /// Format of the files.
     pub format: LidFormat,
-    /// Orientation of the luminaires; `None`: that of the aperture.
+    /// Orientation of the luminaires (directions of C = 0 and γ = 0); `None`: that of the aperture.
     pub aim: Option<Aim>,
-    /// Step of C and γ; `None`: chosen by the program.
+    /// Step of the tables in C and γ; `None`: chosen by the program.
     pub step: Option<Step>,
-    /// Division into tiles.
+    /// Division of the aperture into tiles.
     pub tiles: Tiles,
-    /// Whether the undeviated beam is left out, for the host to compute.
+    /// Whether the undeviated beam is left out, because the host program computes it.
     pub without_beam: bool,
 }
 
-/// One luminaire file.
+/// Luminaire file of one tile, with its row in the index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TileFile {
     /// Content of the file.
     pub bytes: Vec<u8>,
-    /// Row of the index for this file.
+    /// Row of the index for this file: position, size, orientation and flux.
     pub row: Row,
 }
 
@@ -92,33 +92,33 @@ pub struct TileFile {
 pub struct LuminaireSet {
     /// Files, one per tile, row by row from the lower left as seen from outside.
     pub files: Vec<TileFile>,
-    /// Division into tiles; `None` if the aperture is one file.
+    /// Division of the aperture into tiles; `None` if the aperture is one file.
     pub tiling: Option<Tiling>,
     /// Luminous flux of all files. \[lm\]
     pub flux: Estimate,
-    /// Largest luminous intensity of all files. \[cd\]
+    /// Largest luminous intensity in any of the files. \[cd\]
     pub peak: f64,
-    /// Relative correction of the first table's flux.
+    /// Factor by which the intensities of the first table were multiplied so that its zonal sum is the correct flux.
     pub scaled_by: f64,
-    /// Orientation of the luminaires.
+    /// Orientation of the luminaires: directions of C = 0 and γ = 0 in the room.
     pub aim: Aim,
-    /// Step of C and γ.
+    /// Step of the tables in C and γ.
     pub step: Step,
-    /// Undeviated beam of the whole aperture that the files do not contain; `None` if they contain it.
+    /// Undeviated beam of the whole aperture, if the files do not contain it; else `None`.
     pub separate_beam: Option<SeparateBeam>,
-    /// Accuracy of a room lit by the files; `None` if it was not examined.
+    /// Accuracy of a room that is lit by the files; `None` if it was not examined.
     pub reached: Option<Reached>,
 }
 
 impl LuminaireSet {
-    /// Returns the index of the files.
+    /// Returns the content of the index of the files.
     pub fn index(&self) -> Vec<u8> {
         luminaire_index::write(&self.files.iter().map(|file| file.row.clone()).collect::<Vec<_>>())
     }
 }
 
-/// Computes the files of an aperture, counted from 0. `text`: header of the files; `name`: returns the file name of a
-/// tile.
+/// Makes the luminaire files of an aperture, counted from 0. `text`: header of the files; `name`: returns the file name
+/// of a tile (`None`: of the whole aperture).
 ///
 /// # Errors
 /// Returns an error if cancelled, or if a table cannot be encoded.
@@ -196,25 +196,26 @@ pub fn make(
     Ok(LuminaireSet { files, tiling, flux, peak, scaled_by, aim, step, separate_beam, reached })
 }
 
-/// Returns the file name of a tile, derived from `out`; for the aperture as a whole that of `out`.
+/// Returns the file name of a tile, derived from the path `out`; for the aperture as a whole that of `out`.
 pub fn tile_name(out: &Path, tile: Option<usize>) -> String {
     let part = |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let number = tile.map(|tile| format!("_{}", tile + 1)).unwrap_or_default();
     format!("{}{number}.{}", part(out.file_stem()), part(out.extension()))
 }
 
-/// Error of luminaire files.
+/// Error when luminaire files are made.
 #[derive(Debug, thiserror::Error)]
 pub enum SetError {
-    /// The light of the scene cannot be computed.
+    /// Scene whose light cannot be computed.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// The file cannot be encoded.
+    /// File that cannot be encoded.
     #[error(transparent)]
     File(#[from] LuminaireFileError),
 }
 
-/// Returns the undeviated beams as one; `None` without any.
+/// Returns the undeviated beams of an aperture as one beam; `None` if there are none. `area`: area of the aperture.
+/// \[m²\]
 fn separate_beam(beams: &[SunBeam], surface: Surface, area: f64) -> Option<SeparateBeam> {
     let flux: f64 = beams.iter().map(|beam| beam.flux).sum();
     let sum: DVec3 = beams.iter().map(|beam| beam.flux * beam.direction.0.vector()).sum();
@@ -222,7 +223,7 @@ fn separate_beam(beams: &[SunBeam], surface: Surface, area: f64) -> Option<Separ
     Some(SeparateBeam { flux, direction: surface.room_from_facade(own), normal: flux / (area * -own.z) })
 }
 
-/// Returns the remarks that the host's user needs.
+/// Returns the remarks that the user of the host program needs, for the headers of the files.
 fn remarks(tiling: Option<Tiling>, separate_beam: Option<&SeparateBeam>, reached: Option<&Reached>) -> Vec<String> {
     let mut list = Vec::new();
     if let Some(Tiling { columns, rows }) = tiling {
@@ -242,7 +243,7 @@ fn remarks(tiling: Option<Tiling>, separate_beam: Option<&SeparateBeam>, reached
     list
 }
 
-/// Adds the remarks in short form, for lines of 78 characters: EULUMDAT has no room for remarks.
+/// Adds the remarks in short form to the header, as lines of 78 characters, because EULUMDAT has no field for remarks.
 fn in_lines(text: &mut Description, separate_beam: Option<&SeparateBeam>, reached: Option<&Reached>) {
     if let Some(SeparateBeam { flux, direction: d, .. }) = separate_beam {
         let way = format!("{:.4} {:.4} {:.4}", d.x, d.y, d.z);

@@ -1,4 +1,4 @@
-//! Intensity tables of an aperture's tiles.
+//! Luminous intensity tables of the tiles of an aperture.
 
 use crate::compute::direction::Surface;
 use crate::compute::lid::c_gamma::{Averaged, CGammaTable, Panel};
@@ -7,20 +7,21 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Position of an aperture in the room.
+/// Position of an aperture in its room, and size of the room.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// Surface of the aperture.
+    /// Surface of the room in which the aperture lies: façade or roof.
     pub surface: Surface,
-    /// Lower left corner in room axes. \[m\]
+    /// Lower left corner of the aperture in room axes. \[m\]
     pub corner: DVec3,
-    /// Size of the aperture. \[m\]
+    /// Width and height of the aperture in its surface. \[m\]
     pub size: [f64; 2],
     /// Width, depth and height of the room. \[m\]
     pub room: DVec3,
 }
 
-/// Returns the tables of all tiles. `narrow`: whether each tile has its own table of narrow scattered light.
+/// Returns the tiles of an aperture with their intensity tables. `narrow`: whether each tile has its own table for
+/// narrowly scattered light.
 pub(super) fn tables(averaged: &Averaged, tiling: Tiling, place: Place, narrow: bool) -> Vec<(Tile, Arc<CGammaTable>)> {
     let tiles = tiling.tiles(place.surface, place.corner, place.size);
     let share = 1.0 / tiles.len() as f64;

@@ -1,4 +1,5 @@
-//! Import of luminaire files: an index and its tiles as one aperture, as a host uses them.
+//! Import of luminaire files that replace an aperture: an index and the files of its tiles, treated in the manner of a
+//! host program.
 
 use super::error::StudyError;
 use super::files;
@@ -18,30 +19,30 @@ use std::collections::hash_map::Entry;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Tolerance of lengths: EULUMDAT rounds to millimetres. \[m\]
+/// Tolerance of lengths, since EULUMDAT rounds to millimetres. \[m\]
 const SAME_LENGTH: f64 = 2e-3;
-/// Relative tolerance of fluxes: by the zonal sum of the files, and by rounding.
+/// Relative tolerance of the flux of a file, between its zonal sum and the index, which are rounded.
 const SAME_FLUX: f64 = 0.01;
-/// Maximum area that tiles may leave open or overlap, relative to the aperture.
+/// Maximum area that tiles may leave uncovered or cover twice, as a share of the aperture's area.
 const SAME_AREA: f64 = 5e-3;
 
-/// End of the file name of an index.
+/// End of the file name of an index of luminaire files.
 pub const INDEX: &str = ".index.csv";
 
-/// One set of luminaires, which represents an aperture.
+/// Set of luminaires that together represent an aperture.
 #[derive(Debug, Clone)]
 pub struct LuminaireAperture {
-    /// Position and size of all tiles together.
+    /// Rectangle that all tiles together fill: position and size of the aperture.
     pub aperture: Aperture,
-    /// Rows of the tiles, in the index's order.
+    /// Rows of the index for the tiles, in its order.
     pub rows: Vec<Row>,
-    /// Contents of the files, in the same order.
+    /// Contents of the luminaire files, in the same order.
     pub files: Vec<Luminaire>,
-    /// Tiles as a host uses them.
+    /// Luminaires with which a host program computes illuminances.
     pub lamps: Arc<Lamps>,
 }
 
-/// Reads a luminaire file by its extension; `None` for files of other extensions.
+/// Reads a luminaire file in the format of its extension; `None` for files with other extensions.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -55,7 +56,7 @@ pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
     read(&files::read(path)?).map(Some).map_err(|error| wrong(path, error.to_string()))
 }
 
-/// Reads an index.
+/// Reads the rows of an index of luminaire files.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read.
@@ -63,7 +64,8 @@ pub fn read_rows(path: &Path) -> Result<Vec<Row>, StudyError> {
     luminaire_index::read(&files::read(path)?).map_err(|error| wrong(path, error.to_string()))
 }
 
-/// Returns the names of a series' members in their order; a single empty name for a single set.
+/// Returns the names of the sets in an index in their order: one for each member of a series, a single empty name if
+/// there is no series.
 pub fn sets(rows: &[Row]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for row in rows {
@@ -74,11 +76,11 @@ pub fn sets(rows: &[Row]) -> Vec<String> {
     names
 }
 
-/// Reads an index and the files that it names. `set`: name of the member of a series.
+/// Reads an index and the luminaire files that it names. `set`: name of the member, if the index lists a series.
 ///
 /// # Errors
-/// Returns an error if a file cannot be read, contradicts the index or cannot be placed by a host; if tiles leave gaps,
-/// overlap or lie in several surfaces; if the member does not exist, or none is named of a series.
+/// Returns an error if a file cannot be read, contradicts the index or cannot be placed by a host program; if tiles
+/// leave gaps, overlap or lie in several surfaces; if the member does not exist, or none is named of a series.
 pub fn read(path: &Path, set: Option<&str>) -> Result<LuminaireAperture, StudyError> {
     let rows = read_rows(path)?;
     let names = sets(&rows);
@@ -97,7 +99,7 @@ pub fn read(path: &Path, set: Option<&str>) -> Result<LuminaireAperture, StudyEr
     of_rows(path, rows.into_iter().filter(|row| row.set == chosen).collect())
 }
 
-/// Reads the files of one set. `path`: of the index.
+/// Reads the luminaire files of one set. `path`: path of the index; `rows`: its rows for the set.
 ///
 /// # Errors
 /// Returns the errors of [`read`].
@@ -133,7 +135,8 @@ pub fn of_rows(path: &Path, rows: Vec<Row>) -> Result<LuminaireAperture, StudyEr
     Ok(LuminaireAperture { aperture, rows, files, lamps })
 }
 
-/// Reads luminaires that fill an aperture of a scene.
+/// Reads luminaires that replace an aperture of a scene. `path`: path of the index; `set`: name of the member of a
+/// series.
 ///
 /// # Errors
 /// Returns the errors of [`read`], and an error if position or size differ from the aperture's.
@@ -151,7 +154,7 @@ pub fn in_place_of(aperture: &Aperture, path: &Path, set: Option<&str>) -> Resul
     Ok(found.lamps)
 }
 
-/// Returns the placeholder system of luminaires in a scene. It has no data.
+/// Returns the system that stands in a scene for luminaire files. It has no BSDF data.
 pub fn as_system(name: &Path) -> Arc<System> {
     let label = format!("luminaire files of {}", name.file_name().unwrap_or_default().to_string_lossy());
     let dataset = Dataset { name: label.clone(), ..Dataset::default() };
@@ -162,7 +165,7 @@ fn wrong(path: &Path, message: String) -> StudyError {
     StudyError::File { path: path.to_owned(), message }
 }
 
-/// Formats the position of an aperture.
+/// Formats position and size of an aperture, for messages.
 pub fn words(aperture: &Aperture) -> String {
     let [x, y, z] = aperture.corner.to_array();
     let (surface, up) = match aperture.surface {
@@ -183,12 +186,13 @@ pub fn words(aperture: &Aperture) -> String {
     )
 }
 
-/// Returns the surface from the rows' positions if the index does not name it: on a façade all rows have y = 0.
+/// Returns the surface (façade or roof) from the positions in the rows if the index does not name it: on a façade all
+/// rows have y = 0.
 fn surface_of(rows: &[Row]) -> Surface {
     if rows.iter().all(|row| row.centre.y.abs() < SAME_LENGTH) { Surface::Facade } else { Surface::Roof }
 }
 
-/// Checks that a file agrees with the index.
+/// Checks that a luminaire file agrees with its row of the index.
 fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), StudyError> {
     if luminaire.photometry != Photometry::C {
         return Err(wrong(path, "planes that are not of type C: what they turn about here is not known".to_owned()));
@@ -213,7 +217,7 @@ fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), 
     Ok(())
 }
 
-/// Returns the rectangle that tiles fill.
+/// Returns the rectangle that the tiles of a set fill; an error message if they leave gaps or overlap.
 fn covered(rows: &[Row], surface: Surface) -> Result<Aperture, String> {
     let (mut low, mut high, mut area) = (DVec3::INFINITY, DVec3::NEG_INFINITY, 0.0);
     for row in rows {

@@ -1,4 +1,4 @@
-//! Date and time of a scene, as the user handles them: sliders, steps, texts.
+//! Date and time of a scene, for sliders, steps and texts.
 
 use super::scene_file::{SceneFile, TimeKey};
 use super::sky::hour_of_weather;
@@ -12,19 +12,20 @@ use jiff::civil::{Date, DateTime, Time};
 use jiff::{Span, ToSpan};
 use std::path::Path;
 
-/// Returns the scene's local time by the clock; `None` if the scene gives sun angles, or no valid time.
+/// Returns the scene's local time by the clock, summer time included; `None` if the scene gives the sun by angles, or
+/// has no valid time.
 pub fn of(scene: &SceneFile) -> Option<DateTime> {
     parse_local_time(&scene.sky.time.as_ref()?.text()).ok()
 }
 
-/// Sets the scene's date and time, replacing sun angles.
+/// Sets the scene's date and time by the clock, in place of sun angles.
 pub fn set(scene: &mut SceneFile, time: DateTime) {
     scene.sky.time = Some(TimeKey::of(time));
     scene.sky.sun.altitude = None;
     scene.sky.sun.azimuth = None;
 }
 
-/// Moves the scene's date and time; returns `false` if there is none or the calendar ends.
+/// Shifts the scene's date and time by days and minutes; returns `false` if it has none or the calendar ends.
 pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
     let span: Span = days.days().minutes(minutes);
     let Some(moved) = of(scene).and_then(|time| time.checked_add(span).ok()) else { return false };
@@ -32,30 +33,30 @@ pub fn step(scene: &mut SceneFile, days: i32, minutes: i32) -> bool {
     true
 }
 
-/// Returns the place of the sun: for a weather hour that of the weather, else the scene's, if complete. `base`: folder
-/// that relative paths start from.
+/// Returns the geographic location for which the sun's position is computed: for a weather hour that of the weather
+/// station, else the scene's; `None` if it is incomplete. `base`: folder from which relative paths start.
 pub fn place(scene: &SceneFile, base: &Path) -> Option<Place> {
     let Some(name) = &scene.sky.weather else { return place_of_site(scene) };
     place_of_station(&kept(name, base).ok()?.weather.station)
 }
 
-/// Returns the place of a weather station.
+/// Returns the geographic location of a weather station, for computing the sun's position.
 pub fn place_of_station(station: &Station) -> Option<Place> {
     Place::new(station.latitude, station.longitude, station.utc_offset).ok()
 }
 
-/// Returns the scene's own place, independent of the weather; `None` if it is incomplete.
+/// Returns the scene's own geographic location, independent of weather data; `None` if it is incomplete.
 pub fn place_of_site(scene: &SceneFile) -> Option<Place> {
     let site = &scene.site;
     Place::new(site.latitude?, site.longitude?, site.utc_offset?).ok()
 }
 
-/// Returns the local standard time of a clock time of the scene.
+/// Returns the local standard time for a time by the scene's clock.
 fn standard(scene: &SceneFile, clock: DateTime) -> DateTime {
     scene.site.dst.standard(clock, scene.site.utc_offset.unwrap_or(0.0))
 }
 
-/// Returns sunrise and sunset of the scene's day at [`place`], by the clock.
+/// Returns sunrise and sunset of the scene's day at its [`place`], as hours by the clock; `None` without place or date.
 pub fn sun_hours(scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     let time = of(scene)?;
     let hours = rise_set(&place(scene, base)?, time.year(), time.month(), time.day()).ok()?;
@@ -65,8 +66,8 @@ pub fn sun_hours(scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     Some(RiseSet { rise: hours.rise.map(|hour| hour + ahead), set: hours.set.map(|hour| hour + ahead) })
 }
 
-/// Returns altitude \[rad\] and bearing \[°\] of the sun at the scene's moment: for a weather hour the position that
-/// its light comes from. `base`: folder that relative paths start from.
+/// Returns true altitude \[rad\] and bearing \[°\] of the sun at the scene's moment; for a weather hour the position
+/// that its sunlight comes from. `base`: folder from which relative paths start.
 pub fn sun(scene: &SceneFile, base: &Path) -> Option<(f64, f64)> {
     if scene.sky.weather.is_some() {
         let sun = hour_of_weather(&scene.sky, &scene.site, base).ok()??.hour.sun;
@@ -75,8 +76,8 @@ pub fn sun(scene: &SceneFile, base: &Path) -> Option<(f64, f64)> {
     sun_of_site(scene)
 }
 
-/// Returns altitude \[rad\] and bearing \[°\] of the sun by the scene's own place and clock, independent of the
-/// weather.
+/// Returns true altitude \[rad\] and bearing \[°\] of the sun by the scene's own place and clock, independent of
+/// weather data.
 pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
     // Given angles have priority over a date.
     if let (Some(altitude), Some(azimuth)) = (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
@@ -86,24 +87,26 @@ pub fn sun_of_site(scene: &SceneFile) -> Option<(f64, f64)> {
     Some((altitude, bearing.degrees()))
 }
 
-/// Sets the date and leaves the clock time; returns `false` if there is none.
+/// Sets the date, without changing the clock time; returns `false` if the scene has no date and time.
 pub fn set_date(scene: &mut SceneFile, date: Date) -> bool {
     let Some(now) = of(scene) else { return false };
     set(scene, date.to_datetime(now.time()));
     true
 }
 
-/// Sets the clock time and leaves the date; returns `false` if there is none, or the time does not exist.
+/// Sets the clock time, without changing the date; returns `false` if the scene has none, or the time does not exist.
 pub fn set_clock(scene: &mut SceneFile, hour: i8, minute: i8) -> bool {
     let (Some(now), Ok(time)) = (of(scene), Time::new(hour, minute, 0, 0)) else { return false };
     set(scene, now.date().to_datetime(time));
     true
 }
 
-/// Moves the clock time, and with `date` the date too, to where the sun comes nearest to a position in the sky \[rad\],
-/// in steps of 5 minutes; returns `false` without a place and a date to start from. Without `date` the day remains: the
-/// sun above the horizon is searched on its path, if it rises. Of two days that fit, the one nearer to the present one
-/// is taken.
+/// Sets the clock time (and with `date` the date) at which the sun is nearest to a position in the sky, in steps of 5
+/// minutes; returns `false` if the scene has no place or date. Without `date` the day is unchanged, and only times with
+/// the sun above the horizon are considered, if it rises. Of two days that fit equally, the one nearer to the present
+/// day is taken.
+///
+/// `altitude`, `bearing`: position in the sky. \[rad\]
 pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -> bool {
     let (Some(place), Some(now)) = (place_of_site(scene), of(scene)) else { return false };
     let aim = Dir::<World>::from_altitude_bearing(altitude, Bearing::from_radians(bearing));
@@ -145,28 +148,29 @@ pub fn towards(scene: &mut SceneFile, altitude: f64, bearing: f64, date: bool) -
     true
 }
 
-/// Whether the sun at an altitude \[rad\] and a bearing \[°\] is in front of a façade that faces `facade`. \[°\]
+/// Whether the sun at an altitude \[rad\] and a bearing \[°\] is in front of a façade whose outward normal has the
+/// bearing `facade`. \[°\]
 pub fn before_facade((altitude, bearing): (f64, f64), facade: f64) -> bool {
     altitude > 0.0 && (bearing - facade).to_radians().cos() * altitude.cos() > 0.0
 }
 
-/// Formats hours since midnight: `14:05`.
+/// Formats hours since midnight as a clock time, such as `14:05`.
 pub fn clock(hours: f64) -> String {
     let minutes = (hours * 60.0).round() as i64;
     format!("{:02}:{:02}", minutes.div_euclid(60), minutes.rem_euclid(60))
 }
 
-/// Formats date and time: `21 Mar 12:00`.
+/// Formats date and time, such as `21 Mar 12:00`.
 pub fn words(time: DateTime) -> String {
     texts::moment(time.day(), month(time.month()), time.strftime("%H:%M"))
 }
 
-/// Returns a month's short name; January is 1.
+/// Returns the short name of a month; January is 1.
 pub fn month(number: i8) -> Text {
     texts::MONTHS[usize::try_from(number - 1).unwrap_or(0).min(11)]
 }
 
-/// Formats an altitude in degrees with `decimals` decimals: `41° high`, `15° below the horizon`.
+/// Formats a solar altitude, given in degrees, with `decimals` decimals, such as `41° high` or `15° below the horizon`.
 pub fn height_words(degrees: f64, decimals: usize) -> String {
     let shown = format!("{}°", fixed(degrees.abs(), decimals));
     // An altitude that rounds to 0 is on the horizon, not below it.
@@ -176,7 +180,7 @@ pub fn height_words(degrees: f64, decimals: usize) -> String {
     if degrees < 0.0 { texts::below_the_horizon(shown) } else { texts::high(shown) }
 }
 
-/// Returns the name of a bearing: `south`, `south-west`.
+/// Returns the name of a compass bearing, given in degrees from north, such as `south` or `south-west`.
 pub fn bearing_word(degrees: f64) -> &'static str {
     const WORDS: [Text; 8] = [
         texts::NORTH,

@@ -1,20 +1,20 @@
-//! Keys `compute.near_field` and `compute.near_field_samples`: method of integrating eq 17, for comparison with the
-//! default method.
+//! Keys `compute.near_field` and `compute.near_field_samples` of a scene: method of integrating the light of an
+//! aperture at a sensor (eq 17), for comparison with the default method.
 
 use super::error::StudyError;
 use crate::compute::room::near_field::NearField;
 use serde::{Deserialize, Serialize};
 
-/// Values of `compute.near_field`.
+/// Value of the key `compute.near_field`: method of integrating the light of an aperture at a sensor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "&'static str")]
 pub enum NearFieldKey {
-    /// Closed forms and error-controlled cubature over the solid angle.
+    /// Default method: closed forms, and error-controlled cubature over the solid angle.
     #[default]
     SolidAngle,
-    /// Point luminaires in place of the aperture.
+    /// Subdivision of the aperture into point luminaires.
     Subdivision,
-    /// Random points on the aperture.
+    /// Monte Carlo integration over random points on the aperture.
     MonteCarlo,
     /// Summed-area tables over two profile angles.
     ProfileTable,
@@ -43,13 +43,13 @@ impl From<NearFieldKey> for &'static str {
     }
 }
 
-/// Default number of random points.
+/// Default number of random points per sensor.
 const POINTS: usize = 1024;
-/// Default number of cells along a profile angle.
+/// Default number of cells along each profile angle.
 const CELLS: usize = 180;
 
-/// Checks the two keys together. `samples`: number of all point luminaires, of random points per sensor, or of cells
-/// along each profile angle.
+/// Checks both keys together, and returns the method. `samples`: effort, the number of all point luminaires, of random
+/// points per sensor, or of cells along each profile angle.
 pub fn near_field(key: NearFieldKey, samples: Option<usize>) -> Result<NearField, StudyError> {
     let within = |least: usize, most: usize, what: &str| match samples {
         Some(samples) if !(least..=most).contains(&samples) => {

@@ -1,5 +1,5 @@
-//! Optical model of a described system: its layers combined into one model in either spectral band, and the materials
-//! with known solar properties.
+//! Optical model of a described system: its layers combined into one model in either spectral band, and the number of
+//! materials with known solar properties.
 
 use super::error::StudyError;
 use super::goniophotometer::{Described, LayerLibrary};
@@ -18,8 +18,8 @@ use std::sync::Arc;
 /// Maximum number of layers of a stack, including nested stacks.
 const MOST_LAYERS: usize = 40;
 
-/// A layer of a stack. Adjacent panes are kept as panes: light keeps its polarisation between them, which matrices do
-/// not contain.
+/// Layer of a stack, or a run of adjacent panes. Adjacent panes are not converted to matrices, because light keeps its
+/// polarisation between them, which matrices do not contain.
 enum LayerRun {
     Panes(Vec<Pane>),
     Other(Box<dyn OpticalModel>),
@@ -33,7 +33,7 @@ impl LayerRun {
         }
     }
 
-    /// Rotates the layer by a quarter turn about the normal, which does not affect panes.
+    /// Rotates the layer by 90° about its normal, which has no effect on panes.
     fn turn(&mut self) {
         if let Self::Other(_) = self
             && let Self::Other(model) = std::mem::replace(self, Self::Panes(Vec::new()))
@@ -44,11 +44,12 @@ impl LayerRun {
 }
 
 impl Described {
-    /// Returns the keys of the states. For a stack with a moving layer, those of the layer.
+    /// Returns the keys of the system's states; for a stack with a moving layer, those of that layer.
     pub fn states(&self, library: &dyn LayerLibrary) -> Result<Vec<String>, StudyError> {
         self.states_within(library, 0)
     }
 
+    /// Returns the keys of the system's states. `depth`: level of nesting of descriptions so far.
     fn states_within(&self, library: &dyn LayerLibrary, depth: usize) -> Result<Vec<String>, StudyError> {
         let SystemKind::Stack(layers) = &self.file.system.kind else { return Ok(self.file.system.states()) };
         let Some(layer) = layers.iter().find(|layer| layer.state == EACH_STATE) else { return Ok(vec![String::new()]) };
@@ -71,13 +72,13 @@ impl Described {
         }
     }
 
-    /// Creates the optical model of one state.
+    /// Creates the optical model of one state for visible light.
     pub fn optical_model(&self, state: &str, library: &dyn LayerLibrary) -> Result<Box<dyn OpticalModel>, StudyError> {
         self.optical_model_in(BandName::Visible, state, library)
     }
 
-    /// Creates the optical model of one state in a spectral band. Visible properties replace missing solar ones, see
-    /// [`Self::materials`].
+    /// Creates the optical model of one state in a spectral band. Visible properties are used where solar ones are
+    /// missing, see [`Self::materials`].
     pub fn optical_model_in(
         &self,
         band: BandName,
@@ -93,8 +94,8 @@ impl Described {
         })
     }
 
-    /// Appends the system as a layer; of a stack all layers, so that a stack in a stack is solved with it, on the same
-    /// cells.
+    /// Appends the layers of this system to a list; of a stack all its layers, so that a stack within a stack is solved
+    /// together with it, on the same cells. `depth`: level of nesting so far.
     fn layers_into(
         &self,
         list: &mut Vec<LayerRun>,
@@ -149,7 +150,7 @@ impl Described {
         }
     }
 
-    /// Returns the description of a layer; `None` for one that is known by data.
+    /// Returns the description of a layer; `None` for a layer that is known only by its data.
     fn described_layer(&self, layer: &Layer) -> Result<Option<Self>, StudyError> {
         match &layer.source {
             LayerSource::File(name) if is_system_file(name) => self.other(name).map(Some),
@@ -158,7 +159,7 @@ impl Described {
         }
     }
 
-    /// Returns the data of a layer that has no description here.
+    /// Returns the system of a layer that is known only by its data.
     fn data_layer(&self, layer: &Layer, state: &str, library: &dyn LayerLibrary) -> Result<Arc<System>, StudyError> {
         let state = (!state.is_empty()).then(|| state.to_owned());
         let keys = match &layer.source {
@@ -168,11 +169,14 @@ impl Described {
         library.load(&keys, self.folder(), Need::Everything)
     }
 
-    /// Returns the number of materials with solar properties, and of all materials in a state; data count as one.
+    /// Returns two numbers for a state: materials with known solar properties, and all materials; a layer known by data
+    /// counts as one.
     pub fn materials(&self, state: &str, library: &dyn LayerLibrary) -> Result<[usize; 2], StudyError> {
         self.materials_within(state, library, 0)
     }
 
+    /// Returns the number of materials with known solar properties, and of all materials. `depth`: level of nesting of
+    /// descriptions so far.
     fn materials_within(
         &self,
         state: &str,

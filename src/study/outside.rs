@@ -1,4 +1,4 @@
-//! Obstructions of a scene from `[[outside]]`, `[building]` and `site.ground_height`.
+//! Obstructions outside a scene's room, from the keys `[[outside]]`, `[building]` and `site.ground_height`.
 
 use super::error::StudyError;
 use super::scene_file::{BuildingKeys, ORDINARY_TARGET, OutsideKeys, SceneFile, USUAL_REFLECTANCE};
@@ -16,25 +16,25 @@ use glam::DVec3;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of boxes of a scene: every ray is tested against all of them.
+/// Maximum number of boxes of a scene, since every ray is tested against all of them.
 pub const MOST_BOXES: usize = limits::BOXES;
 /// Maximum distance of a box from the room's origin. \[m\]
 const FARTHEST: f64 = 1e6;
-/// Minimum side of a box: a thinner one is a typing error, and rays could miss it. \[m\]
+/// Minimum side of a box; a thinner one is a typing error, and rays could miss it. \[m\]
 const THINNEST: f64 = 1e-6;
 /// Height above the ground below which a box is left out. \[m\]
 const LOWEST: f64 = 1e-6;
-/// Height of a box relative to its distance from all apertures below which it may be left out: it hides the sun for
-/// minutes at the horizon only.
+/// Ratio of a box's height to its distance from all apertures below which it may be left out, because it hides the sun
+/// only for minutes at the horizon.
 const LOW: f64 = 0.01;
-/// Solid angle below which such boxes are left out together: a ten-thousandth of what a façade sees. \[sr\]
+/// Solid angle up to which such low boxes are left out together: a ten-thousandth of what a façade sees. \[sr\]
 const UNSEEN: f64 = 3e-4;
 /// Maximum number of stored lit obstructions: those of a scene, coarse and fine, and those before its last change.
 const MOST_LIT: usize = 3;
-/// Tolerance of lengths that should meet: typed as decimals they do not exactly. \[m\]
+/// Tolerance of lengths that should be equal, since typed decimals are not exactly. \[m\]
 const TOUCHING: f64 = 1e-6;
 
-/// Checks the boxes, and returns them in room axes.
+/// Checks the boxes of a scene, and returns them in room axes, each with its reflectance or luminance.
 pub fn boxes(file: &SceneFile, room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, StudyError> {
     let keys = &file.outside;
     if keys.len() > MOST_BOXES {
@@ -46,7 +46,7 @@ pub fn boxes(file: &SceneFile, room: &BoxRoom) -> Result<Vec<(Solid, Finish)>, S
     all.filter(|one| one.as_ref().map_or(true, rises)).collect()
 }
 
-/// Checks the height of the ground.
+/// Checks the height of the ground, and returns it. \[m\]
 fn ground_height(file: &SceneFile, apertures: &[Aperture]) -> Result<f64, StudyError> {
     let height = file.site.ground_height;
     let wrong = |message: String| Err(StudyError::key("site.ground_height", message));
@@ -60,7 +60,7 @@ fn ground_height(file: &SceneFile, apertures: &[Aperture]) -> Result<f64, StudyE
     Ok(height)
 }
 
-/// Checks the building, and returns it with its reflectance.
+/// Checks the building, and returns its box in room axes with its reflectance. `ground`: height of the ground. \[m\]
 fn building(
     keys: &BuildingKeys,
     room: &BoxRoom,
@@ -104,6 +104,7 @@ fn building(
     Ok((Solid::new(DVec3::from_array(keys.from), DVec3::from_array(keys.to), 0.0), keys.reflectance))
 }
 
+/// Checks one box, and returns it in room axes with its reflectance or luminance.
 fn one_box(index: usize, keys: &OutsideKeys, room: &BoxRoom) -> Result<(Solid, Finish), StudyError> {
     let wrong = |key: &str, message: String| Err(StudyError::key(format!("outside[{}].{key}", index + 1), message));
     for (axis, (from, to)) in ["x", "y", "z"].into_iter().zip(keys.solid.from.into_iter().zip(keys.solid.to)) {
@@ -157,7 +158,8 @@ fn own_box(room: &BoxRoom) -> Solid {
     Solid::new(DVec3::ZERO, room.size, 0.0)
 }
 
-/// Removes boxes that are too far and too low to matter, independent of the light on them.
+/// Removes boxes that are too low and too far away to matter, whatever light falls on them. `ground`: height of the
+/// ground. \[m\]
 fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], ground: f64) {
     let far = |(solid, finish): &(Solid, Finish)| {
         let distance = apertures.iter().map(|one| solid.gap_to(&one.corners())).fold(f64::INFINITY, f64::min);
@@ -173,17 +175,17 @@ fn leave_out_far(boxes: &mut Vec<(Solid, Finish)>, apertures: &[Aperture], groun
     });
 }
 
-/// Input of the light on obstructions, everything in world axes.
+/// Input from which the light on obstructions is computed, everything in the world frame.
 #[derive(PartialEq)]
 struct Asked {
     /// Sky, ground and skyline.
     outside: Outside,
     sun: Option<Sun>,
     setting: Setting,
-    /// Cosine and sine of the rotation of the room's x axis.
+    /// Cosine and sine of the angle between the room's x axis and east.
     turn: [f64; 2],
     viewpoints: Vec<DVec3>,
-    /// Relative error target.
+    /// Relative error target of the light on the obstructions.
     target: f64,
 }
 
@@ -197,12 +199,13 @@ impl Asked {
     }
 }
 
-/// Store of the last lit obstructions, for another product or another result of the same scene.
+/// Store of the obstructions for which light was computed last, for another product or another result of the same
+/// scene.
 #[derive(Default)]
 pub struct LitObstructions(Mutex<VecDeque<(Asked, Outside)>>);
 
 impl LitObstructions {
-    /// Returns lit obstructions; simultaneous requests compute them only once.
+    /// Returns the obstructions with the light on them; simultaneous requests compute it only once.
     fn get(&self, asked: Asked, progress: &dyn Progress) -> Result<Outside, Cancelled> {
         if rayon::current_thread_index().is_some() {
             // A thread of a parallel computation that waited here could wait for itself.
@@ -220,20 +223,20 @@ impl LitObstructions {
     }
 }
 
-/// Obstructions of a scene, for any sky.
+/// Obstructions in front of a scene's apertures, independent of the sky.
 pub struct Before {
-    /// Bodies in room axes, on the ground.
+    /// Boxes and building in room axes, on the ground.
     setting: Setting,
-    /// Points that the obstructions are seen from in room axes, by default the corners of the apertures.
+    /// Points from which the obstructions are seen, in room axes; by default the corners of the apertures. \[m\]
     viewpoints: Vec<DVec3>,
-    /// Relative error target.
+    /// Relative error target of the light on the obstructions.
     target: f64,
-    /// Notes on assumptions and on what was left out.
+    /// Notes for the user on assumptions, and on boxes that were left out.
     pub notes: Vec<String>,
 }
 
 impl Before {
-    /// Creates the obstructions in front of apertures.
+    /// Creates the obstructions from the keys of a scene.
     ///
     /// # Errors
     /// Returns an error if boxes, building or height of the ground are not valid.
@@ -261,25 +264,25 @@ impl Before {
         })
     }
 
-    /// Returns the obstructions as seen from one point, in room axes.
+    /// Returns the obstructions as seen from one point. `eye`: the point in room axes. \[m\]
     pub fn seen_from(self, eye: DVec3) -> Self {
         Self { viewpoints: vec![eye], ..self }
     }
 
-    /// Whether there is no obstruction.
+    /// Whether the scene has no obstructions.
     pub fn is_empty(&self) -> bool {
         self.setting.boxes.is_empty() && self.setting.building.is_none()
     }
 
-    /// Returns the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies
-    /// at the room's floor. `outside`: the sky with its skyline.
+    /// Returns the ground with the shadows of the obstructions on it, in room axes; `None` without obstructions above
+    /// ground that lies at the level of the room's floor. `outside`: sky with its skyline.
     pub fn ground_shade(&self, outside: &Outside, sun: Option<&Sun>, orientation: Orientation) -> Option<GroundShade> {
         let any = !self.is_empty() || self.setting.ground != 0.0;
         any.then(|| GroundShade::new(&self.setting, outside, sun, orientation))
     }
 
-    /// Computes the light on the obstructions and places them in front of a sky, whose skyline remains; without
-    /// obstructions the sky is returned unchanged. `kept`: store that is searched for the result first.
+    /// Computes the light on the obstructions, and returns the outside with them in front of the sky and its skyline;
+    /// without obstructions the sky is returned unchanged. `kept`: store that is searched for the result first.
     ///
     /// # Errors
     /// Returns an error if cancelled.
@@ -300,7 +303,8 @@ impl Before {
         }
     }
 
-    /// Returns the obstructions and the corners of the apertures in the world's axes; `None` without obstructions.
+    /// Returns the obstructions and the points from which they are seen in the world frame; `None` without
+    /// obstructions.
     pub fn turned(&self, orientation: Orientation) -> Option<(Setting, Vec<DVec3>)> {
         if self.is_empty() {
             return None;
@@ -309,7 +313,7 @@ impl Before {
         Some((setting, self.viewpoints.iter().map(|p| orientation.to_world(*p)).collect()))
     }
 
-    /// Returns the boxes, dark, with the skyline of `outside`; `None` without obstructions.
+    /// Returns the obstructions without light on them, with the skyline of `outside`; `None` without obstructions.
     pub fn dark(&self, outside: &Outside, orientation: Orientation) -> Option<Arc<Surroundings>> {
         let (setting, _) = self.turned(orientation)?;
         let skyline = outside.surroundings().and_then(|known| known.skyline.clone());

@@ -1,7 +1,7 @@
-//! A file that is being written, beside the file that it will replace.
+//! Temporary file (part) with the content of a file that is being written, beside the target that it will replace.
 //!
-//! It is locked as long as its program runs; the system releases the lock however the program ends. A remaining file
-//! without a lock has no owner, and is removed when something is written to the same folder.
+//! It is locked as long as its program runs; the operating system releases the lock however the program ends. A
+//! remaining part without a lock has been abandoned, and is removed when something is written to the same folder.
 
 use std::collections::BTreeSet;
 use std::fs::{File, TryLockError};
@@ -11,30 +11,33 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-/// End of a part's name, after its number.
+/// End of the name of a temporary file, after its unique number.
 const ENDING: &str = ".part";
-/// Number of hexadecimal digits of the unique number in a part's name.
+/// Number of hexadecimal digits of the unique number in the name.
 const DIGITS: usize = 16;
-/// Maximum length of a name that a part keeps: with a longer one the number has no room in the 255 bytes of systems.
+/// Maximum length of a target's name that is part of the temporary file's name; with a longer one the number does not
+/// fit into the 255 bytes that systems allow.
 const LONGEST_NAME: usize = 200;
-/// Age without changes above which parts have no owner, where files cannot be locked.
+/// Age without changes above which temporary files count as abandoned, where files cannot be locked.
 const OLD: Duration = Duration::from_secs(3600);
-/// Number of attempts with new names if another program removed a part between its creation and its locking.
+/// Number of attempts with new names if another program removes the temporary file between its creation and its
+/// locking.
 const TRIES: usize = 8;
 
-/// Folders from which this program has removed abandoned parts.
+/// Folders from which this program has removed abandoned temporary files.
 static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Returns the file that a name denotes: for a link its target.
+/// Returns the file to which a path leads: for a symbolic link its target.
 pub(super) fn resolved(path: &Path) -> PathBuf {
     let link = std::fs::symlink_metadata(path).is_ok_and(|meta| meta.is_symlink());
     let led = link.then(|| std::fs::canonicalize(path).ok()).flatten();
     led.unwrap_or_else(|| path.to_owned())
 }
 
-/// A file that is being written. It is removed if it is dropped before it has been renamed.
+/// Temporary file with the content of a file that is being written. It is removed if it is dropped before it has been
+/// renamed.
 pub(super) struct Part {
-    /// Open file; `None` while it is closed by [`Self::rest`], and after it has been renamed.
+    /// Open file; `None` after it was closed by [`Self::rest`] or renamed.
     file: Option<File>,
     path: PathBuf,
     target: PathBuf,
@@ -42,7 +45,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Creates the part of a file `target`, with the permissions of an existing one.
+    /// Creates the temporary file for a file `target`, with the permissions of an existing one.
     pub(super) fn beside(target: &Path) -> std::io::Result<Self> {
         let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         sweep(folder);
@@ -69,7 +72,7 @@ impl Part {
         Err(std::io::Error::other("the file that is being written is removed again and again"))
     }
 
-    /// Returns the open file.
+    /// Returns the open temporary file.
     ///
     /// # Panics
     /// Never: it is open until [`Self::rest`] or [`Self::take_name`].
@@ -77,17 +80,17 @@ impl Part {
         self.file.as_ref().expect("a part is written before it rests or takes its name")
     }
 
-    /// Appends bytes.
+    /// Appends bytes to the temporary file.
     pub(super) fn write(&mut self, bytes: &[u8]) -> std::io::Result<()> {
         self.file().write_all(bytes)
     }
 
-    /// Closes the file until it is renamed, and so releases the lock: for seconds, not hours.
+    /// Closes the temporary file until it is renamed, and so releases the lock; only for seconds, not hours.
     pub(super) fn rest(&mut self) {
         self.file = None;
     }
 
-    /// Renames the part to its target, and returns the file unless it was closed.
+    /// Renames the temporary file to its target, and returns the file unless it was closed.
     pub(super) fn take_name(mut self) -> std::io::Result<Option<File>> {
         std::fs::rename(&self.path, &self.target)?;
         self.named = true;
@@ -107,7 +110,7 @@ impl Drop for Part {
     }
 }
 
-/// Whether a name is that of a part.
+/// Whether a file name is that of a temporary file.
 fn is_part(name: &str) -> bool {
     let number = name.strip_suffix(ENDING).and_then(|rest| rest.rsplit_once('.'));
     number.is_some_and(|(stem, number)| {
@@ -115,7 +118,7 @@ fn is_part(name: &str) -> bool {
     })
 }
 
-/// Removes the parts of programs that ended prematurely, once for every folder.
+/// Removes the temporary files of programs that ended prematurely, once for every folder.
 fn sweep(folder: &Path) {
     let whole = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
     if !SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(whole) {

@@ -1,4 +1,4 @@
-//! Some thousand cities for the choice of a site: found by text, or by distance.
+//! List of some thousand cities for the choice of a site: found by name, or by distance.
 //!
 //! Data from GeoNames (see `assets/places`): latitude, longitude, elevation, and UTC offset of standard time.
 
@@ -15,17 +15,18 @@ pub static CITIES: LazyLock<Vec<City>> = LazyLock::new(|| {
     read_cities(include_bytes!("../../assets/places/places.tsv.zst")).expect("the table of places is whole")
 });
 
-/// Distance from a city's centre up to which a place is named after it. \[km\]
+/// Distance from a city's centre up to which a site is named after it. \[km\]
 const IN_CITY: f64 = 10.0;
 
 /// Length of a degree along a meridian. \[km/°\]
 const KM_PER_DEGREE: f64 = 111.2;
 
-/// Names and countries of the cities in the form that the search compares.
+/// Names and countries of the cities in the form in which the search compares them.
 static PLAIN: LazyLock<Vec<[String; 2]>> =
     LazyLock::new(|| CITIES.iter().map(|city| [&*city.name, &*city.country].map(folded)).collect());
 
-/// Returns the rank of a city with plain name `own` for a searched name: 0 the best; `None` if it does not match.
+/// Returns how well a city matches a searched name: 0 is best; `None` if it does not match. `own`: name of the city in
+/// the form for comparison.
 fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
     let known = || std::iter::once(own).chain(city.other_names.iter().map(|other| &**other));
     // A name with accents has the same spelling in plain form.
@@ -43,14 +44,15 @@ fn rank(city: &City, own: &str, name: &str) -> Option<u8> {
     }
 }
 
-/// Whether a city with plain country `country` is in a country or state that begins with `area`, or has this code.
+/// Whether a city is in a country or state that begins with `area`, or has this code. `country`: country in the form
+/// for comparison.
 fn within(city: &City, country: &str, area: &str) -> bool {
     let code: String = city.code.iter().collect();
     code.eq_ignore_ascii_case(area) || city.region.eq_ignore_ascii_case(area) || country.starts_with(area)
 }
 
-/// Returns at most `most` cities that match the typed text, best first, and the number of all: `stutt`, `münchen`,
-/// `portland, us`.
+/// Returns at most `most` cities that match the typed text, best first, and the number of all that match. Examples of
+/// texts: `stutt`, `münchen`, `portland, us`.
 pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     let typed = folded(typed.trim());
     let (name, area) = typed.split_once(',').unwrap_or((&typed, ""));
@@ -70,10 +72,10 @@ pub fn search(typed: &str, most: usize) -> (Vec<&'static City>, usize) {
     (found.into_iter().take(most).map(|(_, city)| city).collect(), count)
 }
 
-/// Codes of countries whose clocks change with those of the European Union.
+/// Codes of countries with the summer time of the European Union.
 const WITH_EU: &str = "AD AL AT AX BA BE BG CH CY CZ DE DK EE ES FI FO FR GB GG GI GL GR HR HU IE IM IT JE LI LT LU LV MC MD \
                        ME MK MT NL NO PL PT RO RS SE SI SJ SK SM UA VA XK";
-/// Codes of countries whose clocks change with those of the United States.
+/// Codes of countries with the daylight saving time of the United States.
 const WITH_US: &str = "BM BS CA CU HT PM TC US";
 /// Codes of states of the United States without summer time.
 const WITHOUT_SUMMER_TIME: [&str; 2] = ["AZ", "HI"];
@@ -100,12 +102,12 @@ pub fn summer_time(city: &City) -> DstKey {
     }
 }
 
-/// Returns the city nearest to a place \[°\], and its distance. \[km\]
+/// Returns the city nearest to a place, and its distance \[km\]. `latitude`, `longitude`: \[°\].
 pub fn nearest(latitude: f64, longitude: f64) -> Option<(&'static City, f64)> {
     closest(latitude, longitude, 180.0)
 }
 
-/// Returns the nearest city of those at most `most` degrees of latitude away, and its distance. \[km\]
+/// Returns the nearest city among those at most `most` degrees of latitude away, and its distance. \[km\]
 fn closest(latitude: f64, longitude: f64, most: f64) -> Option<(&'static City, f64)> {
     let distance = |city: &City| {
         let east = (city.longitude - longitude + 540.0).rem_euclid(360.0) - 180.0;
@@ -116,7 +118,7 @@ fn closest(latitude: f64, longitude: f64, most: f64) -> Option<(&'static City, f
     near.map(|city| (city, distance(city))).min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// Returns the city that contains a place \[°\].
+/// Returns the nearest city if its centre is within 10 km of a place. `latitude`, `longitude`: \[°\].
 pub fn city_at(latitude: f64, longitude: f64) -> Option<&'static City> {
     closest(latitude, longitude, IN_CITY / KM_PER_DEGREE)
         .filter(|(_, distance)| *distance < IN_CITY)

@@ -1,39 +1,39 @@
-//! Plan of a computation: the stages that a scene needs, and the reasons for skipped ones. Made before any work,
-//! printed with every result.
+//! Plan of a computation: the stages that a scene needs, and why the others are skipped. It is made before any work,
+//! and printed with every result.
 
 use super::scene::{Scene, surface};
 use crate::compute::btdf::{Btdf, Scattered};
 use std::time::Duration;
 
-/// One stage of the computation.
+/// One stage of a computation, such as "interreflection".
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
-    /// Stable name of the stage.
+    /// Stable name of the stage, which does not change with the language.
     pub name: &'static str,
     /// Whether the stage runs.
     pub runs: bool,
     /// Reason why it runs or is skipped.
     pub reason: String,
-    /// Time spent on the stage.
+    /// Computing time of the stage.
     pub time: Duration,
 }
 
 impl Stage {
-    /// Whether the stage is only about a stored result, so that it says nothing about this computation.
+    /// Whether the stage is only a note on a stored result, so that it says nothing about this computation.
     pub fn is_kept(&self) -> bool {
         self.reason.starts_with("reused") || self.reason == "not there yet"
     }
 }
 
-/// Stages of a computation.
+/// Plan of a computation: its stages with reasons and times.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Plan {
-    /// Stages in order of execution.
+    /// Stages in the order of execution.
     pub stages: Vec<Stage>,
 }
 
 impl Plan {
-    /// Creates the plan of a scene.
+    /// Creates the plan for a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut plan = Self::default();
         let scattered = |test: fn(&Scattered) -> bool| {
@@ -129,7 +129,7 @@ impl Plan {
         plan
     }
 
-    /// Adds a stage or a note on one that is known only during the computation.
+    /// Adds a stage, or a note on one, that becomes known only during the computation.
     pub(super) fn note(&mut self, name: &'static str, runs: bool, reason: &str) {
         self.add(name, runs, reason);
     }
@@ -138,12 +138,12 @@ impl Plan {
         self.stages.push(Stage { name, runs, reason: reason.to_owned(), time: Duration::ZERO });
     }
 
-    /// Whether a stage runs.
+    /// Whether the stage with this name runs.
     pub fn runs(&self, name: &str) -> bool {
         self.stages.iter().any(|stage| stage.name == name && stage.runs)
     }
 
-    /// Adds time to a stage; a stage without a plan entry is added.
+    /// Adds computing time to a stage; a stage that is not in the plan is added.
     pub fn spend(&mut self, name: &'static str, time: Duration) {
         match self.stages.iter_mut().find(|stage| stage.name == name) {
             Some(stage) => stage.time += time,

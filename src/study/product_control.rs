@@ -1,7 +1,7 @@
 //! Shading control of a moving product: its rule, and its states over a day and a year.
 //!
-//! Day and year are computed for permanent sunshine: the hours with the sun in front of the façade, and the states that
-//! the rule requires.
+//! Day and year are computed for permanent sunshine: for the hours with the sun in front of the façade, the states that
+//! the rule demands.
 
 use super::StudyError;
 use super::control::year::{Moment, Moving, Setting, Situation, day, year as study_year};
@@ -16,20 +16,20 @@ use crate::texts::{Text, decimal, words as texts};
 use jiff::civil::Date;
 use std::path::{Path, PathBuf};
 
-/// Step of a year. \[min\]
+/// Time step of a year. \[min\]
 const YEAR_STEP: u32 = 60;
-/// Step of a day. \[min\]
+/// Time step of a day. \[min\]
 const DAY_STEP: u32 = 30;
 
 /// Texts about a control rule.
 pub struct Words {
-    /// Name in a list.
+    /// Name of the rule in a list.
     pub short: &'static str,
-    /// Phrase for what a product does by the rule.
+    /// Phrase for what a product does under the rule.
     pub does: &'static str,
     /// Phrase for the rule as an instruction.
     pub order: &'static str,
-    /// Description in one sentence.
+    /// Description of the rule in one sentence.
     pub tip: &'static str,
 }
 
@@ -50,7 +50,7 @@ pub fn words(mode: ControlMode) -> Words {
     Words { short, does, order, tip }
 }
 
-/// Returns the label of a state: slat angles and other numbers in degrees, else the product's own name.
+/// Returns the label of a state: slat angles and other numbers in degrees, else the name that the product gives.
 pub fn state_words(state: &State) -> String {
     match state.value {
         // If the key is the number, the format has written an angle.
@@ -60,7 +60,7 @@ pub fn state_words(state: &State) -> String {
     }
 }
 
-/// Returns the initial control of a newly chosen product; `None`: by hand.
+/// Returns the control keys that a newly chosen product gets by default; `None` if its state is set by hand.
 pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
     let mode = match rule {
         FirstRule::ByHand => return None,
@@ -71,12 +71,12 @@ pub fn first_keys(rule: FirstRule) -> Option<ControlKeys> {
     Some(ControlKeys::of(mode))
 }
 
-/// Site, façade and rule: all input of a year of control.
+/// Input of a year of control: product, control keys, site and façade. Years with equal input are equal.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearKey {
     /// Key of the moving product.
     pub product: String,
-    /// Control rule; "fixed" with the state that is set by hand.
+    /// Keys of the control; mode "fixed" for a state that is set by hand.
     pub keys: ControlKeys,
     situation: Situation,
     opening: Aperture,
@@ -84,15 +84,15 @@ pub struct YearKey {
 }
 
 impl YearKey {
-    /// Creates the key for a scene with one product in `aperture`, from 0, that moves by these keys; `None` without
-    /// site and date.
+    /// Creates the input for a scene with one product in the aperture `aperture`, counted from 0; `None` if the scene
+    /// has no site or date. `keys`: keys of the control; `base`: folder of the scene.
     pub fn new(scene: &SceneFile, product: &str, keys: ControlKeys, aperture: usize, base: PathBuf) -> Option<Self> {
         moment::of(scene)?;
         let (situation, opening) = (Situation::of(scene).ok()?, opening(scene, aperture).ok()??);
         Some(Self { product: product.to_owned(), keys, situation, opening, base })
     }
 
-    /// Returns the reason why a scene has no year of control, and the remedy.
+    /// Returns the reason why the control of a scene cannot be computed over a year, and the remedy; `None` if it can.
     pub fn missing(scene: &SceneFile) -> Option<String> {
         if moment::of(scene).is_none() {
             return Some(texts::YEAR_NEEDS_DATE.into());
@@ -108,21 +108,21 @@ impl YearKey {
     }
 }
 
-/// States in every hour of a year.
+/// States that the control of a product demands in every hour of a year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Year {
-    /// Input of the year.
+    /// Input from which the year was computed.
     pub key: YearKey,
-    /// Keys of the states, in ascending order of their values.
+    /// Keys of the states, in ascending order of their numbers.
     pub states: Vec<String>,
-    /// Indices of the states in the middle of each hour, day by day; `None` while the sun is not in front of the
-    /// façade.
+    /// Index of the state in the middle of each hour, day by day; `None` while the sun is not in front of the façade.
     pub hours: Vec<Option<u16>>,
     /// Number of state changes.
     pub movements: usize,
 }
 
-/// Returns keys and values of the states, in ascending order. Without values their order is used.
+/// Returns keys and numbers of the states, in ascending order of the numbers; for states without numbers their
+/// positions are used.
 pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
     let number = |(i, state): (usize, &State)| (state.key.clone(), state.value.unwrap_or(i as f64));
     let mut list: Vec<(String, f64)> = product.states.iter().enumerate().map(number).collect();
@@ -130,8 +130,8 @@ pub fn ordered_states(product: &Product) -> Vec<(String, f64)> {
     list
 }
 
-/// Returns profile angle \[°\] and index of the state among the ordered ones; `None` while the sun is not in front of
-/// the façade.
+/// Returns the profile angle of the sun \[°\], and the index of the state in the list of ordered keys `states`; `None`
+/// while the sun is not in front of the façade.
 fn seen(product: &Product, states: &[String], setting: &Setting) -> Option<(f64, u16)> {
     let psi = setting.profile_angle?;
     let key = &product.states[setting.state].key;
@@ -143,7 +143,7 @@ fn ordered_keys(product: &Product) -> Vec<String> {
     ordered_states(product).into_iter().map(|(state, _)| state).collect()
 }
 
-/// Computes the year of a product. Runs as a background job.
+/// Computes the states of a product over a year. Runs as a background job.
 pub fn year(product: &Product, key: YearKey, progress: &dyn Progress) -> Result<Year, StudyError> {
     let moving = key.moving(product)?;
     let moments = study_year(&key.situation, &key.base, &moving, YEAR_STEP, &key.situation.sky, progress)?;
@@ -154,10 +154,11 @@ pub fn year(product: &Product, key: YearKey, progress: &dyn Progress) -> Result<
     Ok(Year { key, states, hours, movements })
 }
 
-/// Point of a day: hour, and profile angle \[°\] with state index; `None` while the sun is not in front of the façade.
+/// State at one time of a day: hour of the day \[h\], and profile angle of the sun \[°\] with the index of the state;
+/// `None` while the sun is not in front of the façade.
 pub type TodayPoint = (f64, Option<(f64, u16)>);
 
-/// Computes a point for every half hour of the scene's day.
+/// Computes the states of a product for every half hour of the scene's day.
 pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<TodayPoint>, StudyError> {
     let Some(time) = moment::of(scene) else { return Ok(Vec::new()) };
     let date: Date = time.date();
@@ -168,7 +169,8 @@ pub fn today(product: &Product, key: &YearKey, scene: &SceneFile) -> Result<Vec<
     Ok(moments.iter().enumerate().map(|(k, moment)| (hour(k), seen(product, &states, &moment.settings[0]))).collect())
 }
 
-/// Returns the points of a rule's curve (profile angle \[°\], value); none for rules without a curve.
+/// Returns the curve of a control rule as points: profile angle of the sun \[°\], and number of the state such as the
+/// slat angle \[°\]; empty for rules without a curve.
 pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
     let device = Device::of(product)?;
     if keys.mode == ControlMode::Curve {
@@ -178,7 +180,7 @@ pub fn rule_curve(product: &Product, keys: &ControlKeys, base: &Path) -> Result<
     Ok(settings.curve().into_iter().map(|(psi, value)| [psi.to_degrees(), value.to_degrees()]).collect())
 }
 
-/// Returns the name of the quantity of a product's state values.
+/// Returns the translated name of the numbers of a product's states, such as "slat angle".
 pub fn quantity(product: &Product) -> &'static str {
     let numeric = product.states.iter().all(|state| state.value.is_some());
     match (numeric, product.kind.as_str()) {

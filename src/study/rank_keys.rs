@@ -1,37 +1,37 @@
-//! Keys of `[rank]` in a scene, as typed: ranked products and objectives.
+//! Keys `[rank]` of a scene file: products to be ranked and objectives.
 
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Keys of `[rank]`.
+/// Section `[rank]` of a scene file.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RankKeys {
-    /// Search words for products, as in the window; empty: the whole catalogue.
+    /// Search words for products, by the same rules as in the window; empty: the whole catalogue.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub products: String,
-    /// Source of the control rule of moving products.
+    /// Source of the control rule of moving products: product or scene.
     #[serde(default, skip_serializing_if = "RankControlKey::is_default")]
     pub control: RankControlKey,
-    /// Weather files that replace `year.weather`.
+    /// Weather files or built-in years that replace `year.weather`; one list is made for each.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub weather: Vec<PathBuf>,
-    /// Bearings of the façade's outward normal that replace `site.azimuth`. \[°\]
+    /// Bearings of the façade's outward normal that replace `site.azimuth`; one list is made for each. \[°\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub azimuths: Vec<f64>,
-    /// Objectives, at least one.
+    /// Objectives of the ranking, at least one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objective: Vec<ObjectiveKeys>,
 }
 
-/// Values of `rank.control`.
+/// Value of `rank.control`: source of the control rule of moving products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RankControlKey {
-    /// Each product's own rule if it has one, else `[control]`.
+    /// Rule of each product if it has one, else the scene's `[control]`.
     #[default]
     Product,
-    /// The scene's `[control]` for all moving products.
+    /// `[control]` of the scene for all moving products.
     Scene,
 }
 
@@ -42,19 +42,20 @@ impl RankControlKey {
     }
 }
 
-/// Keys of `[[rank.objective]]`.
+/// Entry of `[[rank.objective]]`: annual figure with its scale and weight.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObjectiveKeys {
-    /// Key of an annual figure, as `cfs year --json` names it under "metrics"; of a list the mean counts.
+    /// Key of an annual figure, as `cfs year --json` names it under "metrics"; of a figure that is a list the mean is
+    /// taken.
     pub figure: String,
-    /// Direction in which the figure is better.
+    /// Whether smaller or larger values of the figure are better.
     pub better: BetterKey,
-    /// Value of the figure with score 0.
+    /// Value of the figure that gives score 0.
     pub worst: f64,
-    /// Value of the figure with score 1.
+    /// Value of the figure that gives score 1.
     pub best: f64,
-    /// Weight, relative to the sum of all weights.
+    /// Weight of the objective, relative to the sum of all weights.
     #[serde(default = "one")]
     pub weight: f64,
 }
@@ -63,7 +64,7 @@ const fn one() -> f64 {
     1.0
 }
 
-/// Values of `rank.objective.better`.
+/// Value of `rank.objective.better`: which values of the figure are better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BetterKey {

@@ -1,4 +1,4 @@
-//! Resolved scene: keys checked together, systems loaded, everything in the units and frames of `compute`.
+//! Resolved scene: its keys checked together, its systems loaded, and everything in the units and frames of `compute`.
 
 use super::control::table::of_scene;
 use super::control::year::CONTROLLED;
@@ -33,97 +33,98 @@ use crate::formats::toml_place::{TomlPlace, place};
 use std::path::Path;
 use std::sync::Arc;
 
-/// One aperture with its system.
+/// Aperture of a resolved scene, with its system.
 #[derive(Debug, Clone)]
 pub struct SceneAperture {
     /// Position and size of the aperture.
     pub aperture: Aperture,
     /// System of the aperture.
     pub system: Arc<System>,
-    /// Transmission with regular transmission separated; `None` if that is not recognised in patch-averaged data.
+    /// Transmission of the system with regular transmission separated from scattered light; `None` if regular
+    /// transmission is not recognised in patch-averaged data.
     pub separated: Option<Arc<Btdf>>,
-    /// Diffuse reflectance of the room side.
+    /// Diffuse reflectance of the room side of the system, 0 … 1.
     pub reflectance: f64,
-    /// Period of the visible structure (pitch of slats or cuts); `None` if it is not known. \[m\]
+    /// Period of the structure that is visible to the eye (pitch of slats or cuts); `None` if it is not known. \[m\]
     pub structure: Option<f64>,
-    /// Whether the room side reflects by its dataset's patches instead of diffusely.
+    /// Whether the room side reflects by direction, with the back reflection of the dataset, instead of diffusely.
     pub directional: bool,
-    /// Transmission factor of frame and dirt, 0 … 1.
+    /// Transmission factor of frame and dirt together, 0 … 1.
     pub clear: f64,
-    /// State that a control has chosen; `None` if the scene names it.
+    /// Key of the state that a control has chosen; `None` if the scene names the state.
     pub controlled: Option<String>,
-    /// Luminaires that light the room instead of the system; `None`: the outside does, through the system.
+    /// Luminaires that light the room in place of the system; `None` if light enters from outside through the system.
     pub lamps: Option<Arc<Lamps>>,
 }
 
 impl SceneAperture {
     /// Returns the transmission for light from outside, with regular transmission separated unless the scene uses the
-    /// data as given; `None` for luminaires.
+    /// data as given; `None` if luminaires replace the system.
     pub fn transmission(&self) -> Option<&Btdf> {
         self.separated.as_deref().or_else(|| self.system.dataset.transmission())
     }
 
-    /// Returns the distance below which sensors see the structure, which the data do not contain; `None` if it is not
-    /// known. \[m\]
+    /// Returns the distance below which sensors could distinguish the structure of the system (such as single slats),
+    /// which the data do not contain; `None` if it is not known. \[m\]
     pub fn homogeneity_distance(&self) -> Option<f64> {
         self.structure.map(homogeneity::distance)
     }
 
-    /// Returns the diffuse reflectance of the room side; 0 if it reflects by patches.
+    /// Returns the diffuse reflectance of the room side, 0 … 1; 0 if it reflects by direction.
     pub fn diffuse_reflectance(&self) -> f64 {
         if self.directional { 0.0 } else { self.reflectance }
     }
 
-    /// Returns the dataset's back reflection by patches; `None` if the room side reflects diffusely.
+    /// Returns the back reflection of the dataset by patches; `None` if the room side reflects diffusely.
     pub fn back_reflection(&self) -> Option<&CellMatrix> {
         reflecting_cells(self.system.dataset.visible.reflection_back.as_ref()?.scattered.as_ref())
             .filter(|_| self.directional)
     }
 }
 
-/// A resolved scene.
+/// Resolved scene, ready for computation.
 #[derive(Debug, Clone)]
 pub struct Scene {
-    /// Room, a box.
+    /// Room as a box, with its reflectances.
     pub room: BoxRoom,
     /// Apertures, at least one.
     pub apertures: Vec<SceneAperture>,
-    /// Orientation of the room to the compass.
+    /// Orientation of the room: its axes relative to north.
     pub orientation: Orientation,
-    /// Bearing of the façade's outward normal.
+    /// Bearing of the façade's outward normal, clockwise from north.
     pub facade: Bearing,
-    /// Sky, ground, skyline, and boxes outside.
+    /// Sky, ground and skyline, with boxes outside.
     pub outside: Outside,
-    /// Sun; `None` if it does not shine.
+    /// Sun; `None` if it is down or has no direct illuminance.
     pub sun: Option<Sun>,
-    /// Illuminances that sky and sun are scaled to; `None` for skies with absolute values.
+    /// Illuminances to which sky and sun were scaled; `None` for skies with absolute values.
     pub illuminances: Option<Illuminances>,
-    /// Sensor points.
+    /// Sensor points of the room, with their normals.
     pub sensors: Vec<Sensor>,
-    /// Numbers of sensors along x and y if they are those of `sensors.plane`.
+    /// Numbers of sensors along x and y if the sensors are those of `sensors.plane`; else `None`.
     pub grid: Option<[usize; 2]>,
     /// Whether interreflection is computed.
     pub interreflection: bool,
-    /// Relative error target.
+    /// Relative error target of the illuminances; `None` if the scene does not give one.
     pub error_target: Option<f64>,
-    /// Interpolation between and inside the dataset's directions.
+    /// Treatment of BSDF data between and within their directions: interpolated, or constant on their patches.
     pub interpolation: Interpolation,
-    /// Whether direct sun is transmitted as sharp beams.
+    /// Whether sunlight is transmitted as sharp beams where systems do not scatter it.
     pub beams: bool,
-    /// Interpolation between the dataset's incident directions, for the sun.
+    /// Scheme of interpolation between the incident directions of a dataset, for the sun.
     pub sun_interpolation: SunScheme,
-    /// Interpolation between the dataset's incident directions, for sky and ground.
+    /// Scheme of interpolation between the incident directions of a dataset, for sky and ground.
     pub diffuse_interpolation: DiffuseScheme,
-    /// Method of integrating an aperture's light at a sensor.
+    /// Method of integrating the light of an aperture at a sensor.
     pub near_field: NearField,
-    /// Notes on what was left out of the obstructions, and on assumptions about them.
+    /// Notes for the user on boxes outside that were left out, and on assumptions.
     pub outside_notes: Vec<String>,
-    /// Weather hour of sky and sun; `None` for sky models.
+    /// Weather hour from which sky and sun were taken; `None` for sky models.
     pub weather: Option<HourOfWeather>,
 }
 
 impl SceneFile {
-    /// Reads the TOML text of a scene.
+    /// Reads a scene file from its TOML text.
     pub fn parse(text: &str) -> Result<Self, StudyError> {
         let wrong = |error: TooLong| StudyError::Syntax { line: 1, column: 1, message: error.to_string() };
         toml::from_str(not_too_long(text).map_err(wrong)?).map_err(|error| {
@@ -135,7 +136,8 @@ impl SceneFile {
 }
 
 impl Scene {
-    /// Resolves a scene like [`Self::resolve_within`], without reporting progress.
+    /// Resolves a scene like [`Self::resolve_within`], without reporting progress. `base`: folder from which relative
+    /// paths start.
     ///
     /// # Errors
     /// Returns an error if a key is wrong or a file cannot be read.
@@ -143,8 +145,8 @@ impl Scene {
         Self::resolve_within(file, base, library, &Silent)
     }
 
-    /// Resolves a scene: checks the keys together, loads the systems and computes the light on obstructions outside.
-    /// `base`: folder that relative paths start from.
+    /// Resolves a scene: checks the keys together, loads the systems, and computes the light on obstructions outside.
+    /// `base`: folder from which relative paths start.
     ///
     /// # Errors
     /// Returns an error if a key is wrong or a file cannot be read, or if cancelled.
@@ -263,7 +265,7 @@ impl Scene {
         })
     }
 
-    /// Returns the number of sensors nearer to each aperture than its homogeneity distance.
+    /// Returns, for each aperture, the number of sensors nearer to it than its homogeneity distance.
     pub fn too_near(&self) -> Vec<usize> {
         let nearer = |one: &SceneAperture| {
             one.homogeneity_distance().map_or(0, |limit| {
@@ -273,7 +275,7 @@ impl Scene {
         self.apertures.iter().map(nearer).collect()
     }
 
-    /// Returns the outside as one aperture faces it.
+    /// Returns outside and sun in relation to one aperture. `aperture`: its index.
     pub fn facing(&self, aperture: usize) -> Facing<'_> {
         Facing {
             outside: &self.outside,
@@ -284,7 +286,7 @@ impl Scene {
     }
 }
 
-/// Returns sky and ground with the obstructions outside, as seen from the middle of the first aperture; `None` without
+/// Returns sky and ground with the obstructions outside, as seen from the centre of the first aperture; `None` without
 /// obstructions.
 ///
 /// # Errors
@@ -309,8 +311,8 @@ pub fn seen_by_first_aperture(
     Ok(Some(behind.seen_from(orientation.to_world(eye))))
 }
 
-/// Finds the ground with the sun's shade on it, in room axes; `None` without obstructions above ground that lies at the
-/// room's floor. `outside`: the sky with its skyline.
+/// Computes the ground with the shadows of the obstructions on it, in room axes; `None` without obstructions above
+/// ground that lies at the level of the room's floor. `outside`: sky with its skyline.
 ///
 /// # Errors
 /// Returns an error if a key of room, apertures or boxes is wrong.
@@ -320,14 +322,14 @@ pub fn ground_shade(file: &SceneFile, outside: &Outside, sun: Option<&Sun>) -> R
     Ok(before.ground_shade(outside, sun, Orientation::new(Bearing::from_degrees(file.site.azimuth))))
 }
 
-/// Returns the area of all six sides. \[m²\]
+/// Returns the area of all six sides of the room. \[m²\]
 pub(super) fn surface(room: &BoxRoom) -> f64 {
     let s = room.size;
     2.0 * (s.x * s.y + s.y * s.z + s.z * s.x)
 }
 
-/// Whether the system has a back reflection that can be computed by direction. Regular reflection, as of a pane,
-/// cannot.
+/// Whether the dataset of a system has a back reflection that can be computed by direction. This excludes regular
+/// reflection, such as that of a pane.
 fn reflects_by_cells(system: &System) -> bool {
     system
         .dataset
@@ -337,7 +339,7 @@ fn reflects_by_cells(system: &System) -> bool {
         .is_some_and(|btdf| btdf.regular.is_none() && reflecting_cells(btdf.scattered.as_ref()).is_some())
 }
 
-/// Returns the error with the number of the aperture that led to it.
+/// Returns an error with the number of the aperture in which it occurred added to the key.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
     let place = |key: &str| format!("aperture[{}].{key}", index + 1);
     match error {
@@ -350,7 +352,8 @@ fn in_aperture(index: usize, error: StudyError) -> StudyError {
     }
 }
 
-/// Returns the system's keys with the state that the control chooses, if the aperture leaves the state to it.
+/// Returns the keys of an aperture's system with the state that the control chooses, if the aperture leaves the state
+/// to it; else unchanged. `asked`: input of the control.
 fn controlled_state(
     keys: &ApertureKeys,
     asked: Option<&ControlQuestion<'_>>,
@@ -379,20 +382,20 @@ fn controlled_state(
     }
 }
 
-/// Whether light may reach an aperture from the room: from its surfaces, or from another aperture.
+/// Whether light may reach an aperture from the room: from reflecting surfaces, or from another aperture.
 fn reflects(file: &SceneFile) -> bool {
     let rho = &file.room.reflectance;
     rho.floor > 0.0 || rho.walls > 0.0 || rho.ceiling > 0.0 || file.aperture.len() > 1
 }
 
-/// Returns the hour of the scene's day; `None` if the sun is given by angles.
+/// Returns the local time of the scene in hours from midnight; `None` if the sun is given by angles.
 fn hour(file: &SceneFile) -> Result<Option<f64>, StudyError> {
     let Some(time) = &file.sky.time else { return Ok(None) };
     let time = parse_local_time(&time.text()).map_err(|error| StudyError::key("sky.time", error.to_string()))?;
     Ok(Some(f64::from(time.hour()) + f64::from(time.minute()) / 60.0))
 }
 
-/// Returns the state that the keys name.
+/// Returns the key of the state that a system's keys name; `None` if they name none.
 fn wanted_state(keys: &SystemKeys) -> Option<String> {
     match keys {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {

@@ -1,4 +1,4 @@
-//! Scene file as typed: TOML keys, defaults, and ranges that can be checked independently of each other.
+//! Scene file as typed: its TOML keys with defaults, and ranges that can be checked independently of each other.
 //!
 //! Lengths in metres, angles in degrees, illuminances in lx, luminances in cd/m². Keys that depend on each other are
 //! checked by [`super::scene`].
@@ -21,90 +21,91 @@ use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 pub use outside::{BoxKeys, BuildingKeys, OutsideKeys, SkylineKeys, USUAL_REFLECTANCE};
 use serde::{Deserialize, Serialize};
 
-/// Relative error target that is assumed for a scene without one.
+/// Relative error target of the illuminances in a scene that does not give one.
 pub(super) const ORDINARY_TARGET: f64 = 0.01;
 
-/// A whole scene file.
+/// Scene file with all its sections.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
-    /// Room, a box.
+    /// Section `[room]`: the room as a box.
     pub room: RoomKeys,
-    /// Apertures in façade and roof.
+    /// Entries `[[aperture]]`: apertures in façade and roof.
     pub aperture: Vec<ApertureKeys>,
-    /// Boxes outside, in front of the façade and above the roof.
+    /// Entries `[[outside]]`: boxes in front of the façade and above the roof.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub outside: Vec<OutsideKeys>,
-    /// The building that the room belongs to.
+    /// Section `[building]`: the building of which the room is a part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub building: Option<BuildingKeys>,
-    /// Site and ground.
+    /// Section `[site]`: geographic location, orientation of the façade, and ground.
     #[serde(default)]
     pub site: SiteKeys,
-    /// Sky and sun.
+    /// Section `[sky]`: sky and sun.
     pub sky: SkyKeys,
-    /// Sensor points.
+    /// Section `[sensors]`: sensor points.
     pub sensors: SensorKeys,
-    /// Control of moving systems; `None`: states are fixed.
+    /// Section `[control]`: control of moving systems; `None`: states are fixed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
-    /// Settings of the computation.
+    /// Section `[compute]`: settings of the computation.
     #[serde(default)]
     pub compute: ComputeKeys,
-    /// Annual simulation; `None` without a year.
+    /// Section `[year]`: annual simulation; `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub year: Option<YearKeys>,
-    /// Ranking of products; `None` without a ranking.
+    /// Section `[rank]`: ranking of products; `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rank: Option<RankKeys>,
-    /// Candidates of the comparison: the list in the window, the columns of `cfs compare`.
+    /// Entries `[[compare]]`: candidates of the comparison, listed in the window and in the columns of `cfs compare`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub compare: Vec<CompareKeys>,
 }
 
 impl SceneFile {
-    /// Whether there are boxes or a building outside.
+    /// Whether the scene has boxes or a building outside.
     pub fn has_outside(&self) -> bool {
         !self.outside.is_empty() || self.building.is_some()
     }
 
-    /// Returns the scene without boxes and building.
+    /// Returns a copy of the scene without boxes and building.
     pub fn without_outside(&self) -> Self {
         Self { outside: Vec::new(), building: None, ..self.clone() }
     }
 }
 
-/// `[[compare]]`: a candidate of the comparison. Keys that it does not set are as in the rest of the scene.
+/// Entry `[[compare]]` of a scene file: candidate of the comparison. Keys that it does not set have the values of the
+/// rest of the scene.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct CompareKeys {
-    /// Name of the candidate; empty: named by its system.
+    /// Name of the candidate; if empty, that of its system.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub name: String,
-    /// System of the apertures that are filled from the catalogue, or of the first aperture if none is.
+    /// System in all apertures that are filled from the catalogue, or in the first aperture if none is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub system: Option<SystemKeys>,
-    /// Control of `system` or `aperture`.
+    /// Control of the systems in `system` or `aperture`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
-    /// Sky and date of the candidate.
+    /// Sky and date of the candidate; `None`: those of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sky: Option<SkyKeys>,
-    /// Site of the candidate.
+    /// Site of the candidate; `None`: that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub site: Option<SiteKeys>,
-    /// Room of the candidate.
+    /// Room of the candidate; `None`: that of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub room: Option<RoomKeys>,
     /// Apertures of the candidate; empty: those of the scene.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub aperture: Vec<ApertureKeys>,
-    /// Sensors of the candidate.
+    /// Sensors of the candidate; `None`: those of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sensors: Option<SensorKeys>,
 }
 
-/// Keys of `[room]`.
+/// Section `[room]` of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoomKeys {
@@ -114,11 +115,11 @@ pub struct RoomKeys {
     pub depth: f64,
     /// Height of the room from floor to ceiling. \[m\]
     pub height: f64,
-    /// Diffuse reflectances of the surfaces without the apertures.
+    /// Diffuse reflectances of the room's surfaces, without the apertures.
     pub reflectance: ReflectanceKeys,
 }
 
-/// Keys of `room.reflectance`.
+/// Key `room.reflectance`: diffuse reflectances of the room's surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReflectanceKeys {
@@ -130,47 +131,47 @@ pub struct ReflectanceKeys {
     pub ceiling: f64,
 }
 
-/// Values of `aperture.surface`.
+/// Value of `aperture.surface`: surface of the room in which an aperture lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SurfaceKey {
-    /// The wall y = 0.
+    /// Façade: the wall y = 0.
     Facade,
-    /// The ceiling.
+    /// Roof: the ceiling of the room.
     Roof,
 }
 
-/// Keys of `[[aperture]]`.
+/// Entry `[[aperture]]` of a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ApertureKeys {
     /// Surface of the aperture: façade or roof.
     pub surface: SurfaceKey,
-    /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
+    /// Lower left corner in room axes: (x, z) in the façade, (x, y) in the roof. \[m\]
     pub origin: [f64; 2],
-    /// Size along x, and along z (façade) or y (roof). \[m\]
+    /// Size of the aperture along x, and along z (façade) or y (roof). \[m\]
     pub size: [f64; 2],
-    /// System of the aperture.
+    /// System that fills the aperture.
     pub system: SystemKeys,
-    /// Room-side diffuse reflectance, or "dataset".
+    /// Diffuse reflectance of the system's room side, or "dataset".
     #[serde(default)]
     pub reflectance: ApertureReflectance,
-    /// Period of the visible structure (pitch of slats or cuts), if the dataset does not have it or has a wrong one.
-    /// \[m\]
+    /// Period of the structure that is visible to the eye (pitch of slats or cuts), if the dataset does not state it or
+    /// states a wrong one. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub structure: Option<f64>,
-    /// Share of the area that is opaque frame, uniformly distributed; 0 … 0.95.
+    /// Frame fraction: share of the aperture's area that is opaque frame, uniformly distributed; 0 … 0.95.
     #[serde(default, skip_serializing_if = "outside::is_none")]
     pub frame: f64,
-    /// Dirt factor of all transmitted light, 0 … 1.
+    /// Dirt factor k₂ by which all transmitted light is multiplied, 0 … 1; 1 is clean.
     #[serde(default = "outside::clean", skip_serializing_if = "outside::is_clean")]
     pub dirt: f64,
-    /// Control of this aperture, instead of the scene's `[control]`.
+    /// Control of this aperture in place of the scene's `[control]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub control: Option<ControlKeys>,
 }
 
-/// `aperture.reflectance`: a number, or "dataset".
+/// Value of `aperture.reflectance`: reflectance of the room side as a number, or "dataset".
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum ApertureReflectance {
     /// Back reflection of the dataset if it has one; 0 for ideal systems.
@@ -218,11 +219,11 @@ impl<'de> Deserialize<'de> for ApertureReflectance {
     }
 }
 
-/// Keys of `[site]`.
+/// Section `[site]` of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SiteKeys {
-    /// Bearing of the façade's outward normal. \[°\]
+    /// Bearing of the façade's outward normal, clockwise from north. \[°\]
     pub azimuth: f64,
     /// Latitude, north positive. \[°\]
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -233,14 +234,14 @@ pub struct SiteKeys {
     /// Offset of local standard time from UTC. \[h\]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub utc_offset: Option<f64>,
-    /// Rule of summer time for `sky.time` and schedules.
+    /// Rule of summer time that applies to `sky.time` and schedules.
     #[serde(skip_serializing_if = "DstKey::is_none")]
     pub dst: DstKey,
     /// Elevation above sea level, for clear-sky illuminances. \[m\]
     pub elevation: f64,
     /// Reflectance of the uniform ground, 0 … 1.
     pub ground_reflectance: f64,
-    /// Height of the ground in room axes. \[m\]
+    /// Height of the ground outside in room axes; the floor is at 0. \[m\]
     pub ground_height: f64,
 }
 
@@ -259,32 +260,32 @@ impl Default for SiteKeys {
     }
 }
 
-/// Keys of `[sensors]`.
+/// Section `[sensors]` of a scene file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct SensorKeys {
-    /// Grid of sensors over the floor.
+    /// Grid of sensor points over the floor (work plane).
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plane: Option<PlaneKeys>,
-    /// Single sensor points (x, y, z). \[m\]
+    /// Single sensor points (x, y, z) in room axes. \[m\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 3]>,
-    /// Normal of the single points.
+    /// Normal of the single sensor points, in room axes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<[f64; 3]>,
 }
 
-/// Keys of `sensors.plane`.
+/// Key `sensors.plane`: grid of sensor points over the floor (work plane).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneKeys {
-    /// Height above the floor. \[m\]
+    /// Height of the sensor points above the floor. \[m\]
     pub z: f64,
-    /// Number of sensors along x.
+    /// Number of sensor points along x, the width of the room.
     pub nx: usize,
-    /// Number of sensors along y.
+    /// Number of sensor points along y, the depth of the room.
     pub ny: usize,
-    /// Normal of the sensors.
+    /// Normal of the sensor points, in room axes; default: upwards.
     #[serde(default = "up")]
     pub normal: [f64; 3],
 }
@@ -293,83 +294,84 @@ const fn up() -> [f64; 3] {
     [0.0, 0.0, 1.0]
 }
 
-/// Values of `compute.interpolation`.
+/// Value of `compute.interpolation`: treatment of BSDF data between and within their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Interpolation {
-    /// The program chooses.
+    /// Interpolation by schemes that the program chooses, unless other keys name them.
     #[default]
     Auto,
-    /// The data are constant on their patches; nothing is filtered, moved or refined.
+    /// Data taken as constant on their patches; nothing is interpolated, filtered or refined.
     Patch,
 }
 
-/// Values of `compute.beam`.
+/// Value of `compute.beam`: treatment of direct sunlight behind systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BeamMode {
-    /// Sharp beams: by the optical model if there is one, else for peaks that stand out of the data.
+    /// Sharp beams: computed by the optical model if there is one, else extracted from patch-averaged data where peaks
+    /// stand out.
     #[default]
     Auto,
-    /// Patch-averaged data, used as given.
+    /// Patch-averaged data as given, without extraction of beams.
     Cells,
 }
 
 impl BeamMode {
-    /// Whether the file can omit the key.
+    /// Whether the value is the default, which is not written to the file.
     fn is_auto(&self) -> bool {
         *self == Self::Auto
     }
 }
 
-/// Values of `compute.back_reflection`.
+/// Value of `compute.back_reflection`: reflection of light from the room by apertures with `reflectance = "dataset"`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BackReflectionMode {
-    /// Directional by the dataset's back reflection if it is given by patches and no other aperture faces this one,
-    /// else diffuse.
+    /// Reflection by direction if the dataset gives its back reflection by patches and no other aperture faces this
+    /// one, else diffuse.
     #[default]
     Auto,
-    /// Diffuse reflection.
+    /// Diffuse reflection in any case.
     Diffuse,
-    /// Directional by patches in any case; direct light from other apertures is then not reflected.
+    /// Reflection by direction in any case; direct light from other apertures is then not reflected.
     Directional,
 }
 
 impl BackReflectionMode {
-    /// Whether the file can omit the key.
+    /// Whether the value is the default, which is not written to the file.
     fn is_auto(&self) -> bool {
         *self == Self::Auto
     }
 }
 
-/// Keys of `[compute]`.
+/// Section `[compute]` of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ComputeKeys {
     /// Whether interreflection is computed; `false`: the direct component alone.
     pub interreflection: bool,
-    /// Relative error target, by which the program chooses its effort.
+    /// Relative error target of the illuminances, by which the program chooses its effort; `None`: the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_target: Option<f64>,
-    /// Interpolation between and inside the dataset's directions.
+    /// Treatment of BSDF data between and within their directions: interpolated, or constant on their patches.
     pub interpolation: Interpolation,
-    /// Interpolation between incident directions, for the sun.
+    /// Scheme of interpolation between the incident directions of a dataset, for the sun.
     #[serde(with = "super::scheme_words::sun")]
     pub sun_interpolation: SunScheme,
-    /// Interpolation between incident directions, for sky and ground.
+    /// Scheme of interpolation between the incident directions of a dataset, for sky and ground.
     #[serde(with = "super::scheme_words::diffuse")]
     pub diffuse_interpolation: DiffuseScheme,
-    /// Method of integrating an aperture's light at a sensor.
+    /// Method of integrating the light of an aperture at a sensor.
     pub near_field: NearFieldKey,
-    /// Effort of the methods that have one: number of point luminaires, of random points per sensor, of cells along
-    /// each angle.
+    /// Effort of the methods that have one: number of point luminaires, of random points per sensor, or of cells along
+    /// each profile angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub near_field_samples: Option<usize>,
-    /// Treatment of light that is transmitted unscattered.
+    /// Treatment of direct sunlight that a system does not scatter.
     #[serde(skip_serializing_if = "BeamMode::is_auto")]
     pub beam: BeamMode,
-    /// Reflection of the room's light by apertures with `reflectance = "dataset"`.
+    /// Reflection of light from the room by apertures with `reflectance = "dataset"`.
     #[serde(skip_serializing_if = "BackReflectionMode::is_auto")]
     pub back_reflection: BackReflectionMode,
 }

@@ -1,4 +1,4 @@
-//! Geometry of a scene's room, apertures and sensors, from their checked keys, in room axes.
+//! Geometry of a scene's room, apertures and sensors in room axes, from their checked keys.
 
 use super::error::StudyError;
 use super::scene_file::{ApertureKeys, RoomKeys, SceneFile, SensorKeys, SurfaceKey};
@@ -12,6 +12,8 @@ use glam::DVec3;
 /// Maximum number of sensors of a scene.
 const MOST_SENSORS: usize = limits::SENSORS;
 
+/// Checks that a value lies between two limits, and returns it. `key`: name for the message; `unit`: unit for the
+/// message.
 pub(super) fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, StudyError> {
     if (min..=max).contains(&value) {
         Ok(value)
@@ -20,7 +22,7 @@ pub(super) fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> R
     }
 }
 
-/// Checks the room, and creates it.
+/// Checks the keys of the room, and creates it.
 pub(super) fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
     let length = |key: &str, value| within(key, value, 1e-3, 1e5, " m");
     let share = |key: &str, value| within(key, value, 0.0, 1.0, "");
@@ -36,7 +38,7 @@ pub(super) fn room(keys: &RoomKeys) -> Result<BoxRoom, StudyError> {
     })
 }
 
-/// Returns the geometry of the aperture `aperture` of a scene, counted from 0; `None` where there are fewer.
+/// Returns position and size of an aperture of the scene, counted from 0; `None` if there are fewer apertures.
 ///
 /// # Errors
 /// Returns an error if a key of room or apertures is wrong.
@@ -44,7 +46,8 @@ pub fn opening(scene: &SceneFile, aperture: usize) -> Result<Option<Aperture>, S
     Ok(apertures(&scene.aperture, &room(&scene.room)?)?.get(aperture).copied())
 }
 
-/// Checks the apertures: each must be in its surface, without overlapping another.
+/// Checks the keys of the apertures, and returns their positions and sizes. Each must lie in its surface, without
+/// overlapping another.
 pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Aperture>, StudyError> {
     if keys.is_empty() {
         return Err(StudyError::key("aperture", "the scene needs at least one [[aperture]]"));
@@ -105,14 +108,15 @@ pub(super) fn apertures(keys: &[ApertureKeys], room: &BoxRoom) -> Result<Vec<Ape
     Ok(list)
 }
 
-/// Returns the transmission factor of an aperture's frame and dirt; `index` from 0.
+/// Returns the transmission factor of an aperture's frame and dirt together, 0 … 1. `index`: index of the aperture,
+/// from 0.
 pub(super) fn clear(keys: &ApertureKeys, index: usize) -> Result<f64, StudyError> {
     let name = |key: &str| format!("aperture[{}].{key}", index + 1);
     let frame = within(&name("frame"), keys.frame, 0.0, 0.95, "")?;
     Ok((1.0 - frame) * within(&name("dirt"), keys.dirt, 0.0, 1.0, "")?)
 }
 
-/// Returns the sensors, and their numbers along each side if they are a plane.
+/// Returns the sensor points, and their numbers along x and y if they are a plane.
 pub(super) fn sensors(keys: &SensorKeys, room: &BoxRoom) -> Result<(Vec<Sensor>, Option<[usize; 2]>), StudyError> {
     let mut list = Vec::new();
     let mut grid = None;

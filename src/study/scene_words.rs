@@ -1,4 +1,4 @@
-//! Texts about a scene: place, time, sky, and accuracy of its figures.
+//! Texts about a scene: place, time, sky, system, and accuracy of illuminances.
 
 use super::moment;
 use super::places::city_at;
@@ -8,13 +8,13 @@ use crate::compute::estimate::{Estimate, largest_relative_error};
 use crate::drawing::ticks::number;
 use crate::texts::{fixed, words as texts};
 
-/// Returns the place as text: for a weather hour the name of the weather, whose own place counts; else the city that
-/// contains the site, or coordinates.
+/// Returns the place of a scene as text: for a weather hour the name of the weather, since its place is used; else the
+/// city that contains the site, or coordinates.
 pub fn place(scene: &SceneFile) -> String {
     scene.sky.weather.as_deref().map_or_else(|| site(scene), short_name)
 }
 
-/// Returns the site as text, independent of the weather: the city that contains it, else coordinates.
+/// Returns the site of a scene as text, independent of weather data: the city that contains it, else coordinates.
 pub fn site(scene: &SceneFile) -> String {
     let (Some(latitude), Some(longitude)) = (scene.site.latitude, scene.site.longitude) else {
         return texts::NO_PLACE.into();
@@ -22,14 +22,14 @@ pub fn site(scene: &SceneFile) -> String {
     city_at(latitude, longitude).map_or_else(|| coordinates(latitude, longitude), |city| city.name.to_string())
 }
 
-/// Formats coordinates: `48.78°N 9.18°E`.
+/// Formats geographic coordinates, given in degrees, such as `48.78°N 9.18°E`.
 pub fn coordinates(latitude: f64, longitude: f64) -> String {
     let ns = if latitude < 0.0 { texts::S } else { texts::N };
     let ew = if longitude < 0.0 { texts::W } else { texts::E };
     texts::coordinates(fixed(latitude.abs(), 2), ns, fixed(longitude.abs(), 2), ew)
 }
 
-/// Returns date and time as text.
+/// Returns date and time of a scene as text.
 pub fn time(scene: &SceneFile) -> String {
     moment::of(scene).map_or_else(
         || match (scene.sky.sun.altitude, scene.sky.sun.azimuth) {
@@ -42,7 +42,7 @@ pub fn time(scene: &SceneFile) -> String {
     )
 }
 
-/// Returns the sky as text.
+/// Returns the sky of a scene as text.
 pub fn sky(scene: &SceneFile) -> String {
     match scene.sky.model {
         SkyModelKey::Cie => {
@@ -58,7 +58,7 @@ pub fn sky(scene: &SceneFile) -> String {
     }
 }
 
-/// Returns the name of an aperture's system, as in the scene.
+/// Returns the name that the scene file gives to an aperture's system.
 pub fn system(keys: &SystemKeys) -> String {
     let with_state = |name: String, state: &Option<String>| match state {
         Some(state) => format!("{name}, {state}"),
@@ -78,11 +78,12 @@ pub fn system(keys: &SystemKeys) -> String {
     }
 }
 
-/// Relative error from which texts call figures uncertain: a step of the scale of illuminances of EN 12464-1, a factor
-/// of about 1.5. \[%\]
+/// Relative error from which texts call illuminances uncertain: a step of the scale of illuminances in EN 12464-1, a
+/// factor of about 1.5. \[%\]
 const LARGE_ERROR: f64 = 50.0;
 
-/// Formats the accuracy of illuminances, in the program's only form: see [`largest_relative_error`].
+/// Formats the accuracy of a list of illuminances, in the one form that all outputs of the program use: see
+/// [`largest_relative_error`].
 pub fn error_words(totals: impl Iterator<Item = Estimate> + Clone) -> String {
     match 100.0 * largest_relative_error(totals) {
         error if error <= 0.0 => texts::NO_ERROR_STATED.into(),

@@ -1,9 +1,10 @@
-//! Keys of the interpolation schemes in scene files: `compute` defines them, serde is used here only.
+//! Serialisation of the interpolation schemes in scene files by their keys: `compute` defines the schemes, serde is
+//! used here only.
 
 use crate::compute::incidence::schemes::{DiffuseScheme, SunScheme};
 use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
-/// Returns the message about an unknown scheme: key, given word, allowed words.
+/// Returns the message about an unknown scheme. `key`: name of the key; `word`: given value; `allowed`: allowed values.
 fn unknown<'a>(key: &str, word: &str, allowed: impl Iterator<Item = &'a str>) -> String {
     let list: Vec<String> = allowed.map(|word| format!("\"{word}\"")).collect();
     format!("compute.{key}: \"{word}\" is not known (allowed: {})", list.join(", "))
@@ -13,13 +14,13 @@ fn unknown<'a>(key: &str, word: &str, allowed: impl Iterator<Item = &'a str>) ->
 pub mod sun {
     use super::*;
 
-    /// Writes the scheme's key; the default is written as the program's choice.
+    /// Writes the key of a scheme; the default is written as the program's choice.
     pub fn serialize<S: Serializer>(scheme: &SunScheme, serializer: S) -> Result<S::Ok, S::Error> {
         let auto = *scheme == SunScheme::default();
         serializer.serialize_str(if auto { SunScheme::AUTO } else { scheme.key() })
     }
 
-    /// Reads a scheme by its key; an error lists the keys.
+    /// Reads a scheme from its key; an error lists the allowed keys.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<SunScheme, D::Error> {
         let word = String::deserialize(deserializer)?;
         let allowed = [SunScheme::AUTO].into_iter().chain(SunScheme::ALL.map(SunScheme::key));
@@ -31,12 +32,12 @@ pub mod sun {
 pub mod diffuse {
     use super::*;
 
-    /// Writes the scheme's key.
+    /// Writes the key of a scheme.
     pub fn serialize<S: Serializer>(scheme: &DiffuseScheme, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.serialize_str(scheme.key())
     }
 
-    /// Reads a scheme by its key; an error lists the keys.
+    /// Reads a scheme from its key; an error lists the allowed keys.
     pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<DiffuseScheme, D::Error> {
         let word = String::deserialize(deserializer)?;
         let allowed = DiffuseScheme::ALL.into_iter().map(DiffuseScheme::key);

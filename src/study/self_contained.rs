@@ -1,5 +1,5 @@
-//! Self-contained descriptions that are stored with the data computed from them: all layers are in their own text,
-//! independent of folder and catalogue.
+//! Self-contained descriptions, which are stored with the data computed from them: their text contains all layers, so
+//! that they do not depend on a folder or catalogue.
 
 use super::goniophotometer::{Base, Described, LayerLibrary};
 use crate::compute::btdf::DescribedState;
@@ -7,17 +7,19 @@ use crate::compute::system::stack::LayerSource;
 use crate::formats::system_toml::{self, MOST_NESTED, is_system_file};
 
 impl Described {
-    /// Returns the text with all layers included that are system files, built-in or beside it, or products of the
-    /// catalogue with a description. `None` if a layer is measured data, which no text replaces, or cannot be read.
+    /// Returns the text of the description with all layers inserted that are system files (built-in or beside it) or
+    /// products of the catalogue with a description. `None` if a layer is known by data only, which no text replaces,
+    /// or cannot be read.
     pub fn self_contained(&self, library: &dyn LayerLibrary) -> Option<String> {
         self.contained_within(library, 0)
     }
 
-    /// Returns the description that is stored with the data of a state.
+    /// Returns the self-contained description of a state, which is stored with its data; `None` if there is none.
     pub fn described(&self, state: &str, library: &dyn LayerLibrary) -> Option<DescribedState> {
         Some(DescribedState { text: self.self_contained(library)?, state: state.to_owned() })
     }
 
+    /// Returns the text with all layers inserted. `depth`: level of nesting so far.
     fn contained_within(&self, library: &dyn LayerLibrary, depth: usize) -> Option<String> {
         // Files may name each other in a circle.
         if depth > MOST_NESTED {

@@ -1,6 +1,6 @@
-//! Sessions compute the light of scenes, and store what does not change between them: factored rooms, and the responses
-//! of sensors and surfaces to each aperture. A new sky, time or product of the same basis costs only products with
-//! these.
+//! Sessions compute the light of scenes, and store everything that does not change between them: factored rooms, and
+//! the responses of sensors and surfaces to each aperture. A new sky, time or product on the same basis then costs only
+//! matrix products.
 
 pub(super) mod beam_responses;
 mod behind;
@@ -65,13 +65,14 @@ use targets::cubature;
 use unit_beams::UnitBeams;
 use weights::{ByCells, Response};
 
-/// First stage of a room, as progress names it.
+/// Name of the first stage of computing a room, in reports of progress.
 const DIRECT: &str = "direct light";
 
-/// Number of stages that a room reports: emission, direct light, two meshes.
+/// Number of stages that progress reports for a room: emission, direct light, two meshes.
 const STEPS: usize = 4;
 
-/// Caches of the computations. One session lasts as long as the program, and is shared between threads.
+/// Session: caches of intermediate results for computing the light of scenes. One session lasts as long as the program,
+/// and is shared between threads.
 pub struct Session {
     rooms: Cache<Radiosity>,
     gather: Cache<Vec<[Reconstruction; 2]>>,
@@ -86,11 +87,11 @@ pub struct Session {
     sunlit_years: Cache<SunlitYear>,
     exact_skies: Cache<Vec<f64>>,
     trial_skies: Cache<Vec<Outside>>,
-    /// Obstructions prepared for the hours of a year.
+    /// Obstructions that were prepared for many skies, such as the hours of a year.
     standing: Cache<Prepared>,
-    /// Counts of obstructions that points of apertures see.
+    /// Weights of outside luminances at points of apertures, by point and incident patch.
     seen_patches: Cache<Vec<Vec<Counts>>>,
-    /// Weights by which sensors see patches at points of an aperture.
+    /// Weights with which sensors see emergent cells at points of an aperture.
     cells_at_points: Cache<Vec<CellWeights>>,
     by_cells: Cache<ByCells>,
     by_nodes: Cache<Vec<ByCells>>,
@@ -100,7 +101,8 @@ pub struct Session {
     interpolators: Cache<Interpolator>,
     suns: Cache<(SystemModel, SunThrough)>,
     skies: Cache<(SystemModel, SkyThrough)>,
-    /// Peaks of datasets. The datasets stay alive with them, so that no others can have their address.
+    /// Peaks extracted from datasets. The datasets are stored with them, so that no other dataset can have the same
+    /// address.
     peaks: Cache<(Arc<Dataset>, Peaks)>,
     /// Whether light that an aperture reflects diffusely is taken as uniform over the aperture.
     reflects_uniformly: bool,
@@ -118,22 +120,24 @@ impl Session {
         Self::keeping(1, false)
     }
 
-    /// Creates a session for work that passes from product to product and does not return: less is stored of what
-    /// depends on a product, and as much of what depends on the weather. The room is solved once for all of them: light
-    /// that panes and diffusers reflect is taken as uniform over each aperture. Near a patch of sun the error
-    /// is up to 0.5 % for a pane, over a year 0.03 % for a white diffuser; the stated errors include it.
+    /// Creates a session for work that goes from product to product and does not return to earlier ones: fewer results
+    /// are stored that depend on a product, and as many that depend on the weather. The room is solved once for all
+    /// products, because light that panes and diffusers reflect is taken as uniform over each aperture. The error of
+    /// this is up to 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the stated
+    /// errors include it.
     pub const fn passing() -> Self {
         Self::keeping(3, true)
     }
 
-    /// Returns the session with reflected light varying from point to point of an aperture: one room for every
-    /// reflectance.
+    /// Returns the session with reflected light that varies from point to point of an aperture; a room is then solved
+    /// for every reflectance of the apertures.
     #[must_use]
     pub fn point_by_point(self) -> Self {
         Self { reflects_uniformly: false, ..self }
     }
 
-    /// Creates a session with 1 / `part` of the usual cache sizes.
+    /// Creates a session with 1 / `part` of the usual cache sizes. `reflects_uniformly`: whether diffusely reflected
+    /// light is taken as uniform over an aperture.
     const fn keeping(part: usize, reflects_uniformly: bool) -> Self {
         Self {
             rooms: Cache::new(9 / part),
@@ -166,7 +170,8 @@ impl Session {
         }
     }
 
-    /// Computes the light of one aperture (eq 5). `aperture` counts from 0 and must exist.
+    /// Computes luminous flux and luminous intensity distribution of one aperture into the room (eq 5). `aperture`:
+    /// index of the aperture from 0, which must exist.
     pub fn lid(&self, scene: &Scene, aperture: usize, progress: &dyn Progress) -> Result<LidResult, StudyError> {
         check(progress)?;
         let geometry = &scene.apertures[aperture].aperture;
@@ -183,7 +188,7 @@ impl Session {
         result.checked()
     }
 
-    /// Computes the illuminance at every sensor.
+    /// Computes the illuminance at every sensor, direct and interreflected, with its error.
     pub fn room(&self, scene: &Scene, progress: &dyn Progress) -> Result<RoomResult, StudyError> {
         let mut plan = Plan::new(scene);
         let clock = Instant::now();
@@ -254,15 +259,15 @@ impl Session {
         Ok(RoomResult { sensors, flux, flux_gap, beams, outside, plan })
     }
 
-    /// Whether the responses of all sensors to the apertures are stored.
+    /// Whether the responses of all sensors to the luminances of the apertures are stored.
     fn holds_receptions(&self, scene: &Scene, emissions: &[Emission]) -> bool {
         emissions.iter().enumerate().all(|(index, emission)| {
             bases(emission).iter().all(|basis| self.reception.holds(&reception_key(scene, index, *basis)))
         })
     }
 
-    /// Adds a note on emergent cells that send no light to any sensor: they need no weights, and without
-    /// interreflection their light does not count.
+    /// Adds a note to the plan on emergent cells that no sensor sees: they need no weights, and without interreflection
+    /// their light has no effect.
     fn note_unseen(
         &self,
         scene: &Scene,
@@ -286,7 +291,8 @@ impl Session {
         Ok(())
     }
 
-    /// Returns the response of every sensor to one aperture's luminance, on the cells of a basis.
+    /// Returns the illuminance of every sensor per luminance of the cells of one aperture, computed or stored. \[sr\]
+    /// `basis`: emergent basis; `None` for uniform luminance only.
     pub(super) fn receptions(
         &self,
         scene: &Scene,
@@ -308,7 +314,7 @@ impl Session {
         })
     }
 
-    /// Returns the responses of all sensors to one aperture's luminance, cell by cell.
+    /// Returns the illuminances of all sensors per luminance of each emergent cell of one aperture. \[sr\]
     pub(super) fn seen_cells(
         &self,
         scene: &Scene,
@@ -323,8 +329,8 @@ impl Session {
         })
     }
 
-    /// Returns the response of the sensors to an aperture on the cells of a basis: stored, or computed sensor by
-    /// sensor.
+    /// Returns the response of the sensors to the luminances of an aperture on the cells of a basis: stored, or to be
+    /// computed sensor by sensor.
     fn seen<'a>(
         &self,
         scene: &'a Scene,
@@ -338,7 +344,7 @@ impl Session {
         Ok(Seen::Recomputed(&scene.apertures[index].aperture, basis))
     }
 
-    /// Returns the response of every sensor to one aperture by bands of the profile angle.
+    /// Returns the response of every sensor to the luminances of one aperture in bands of the profile angle.
     fn band_weights<'a>(
         &self,
         scene: &'a Scene,
@@ -354,7 +360,8 @@ impl Session {
         self.kept_bands(scene, index, (upright, count), progress).map(SeenBands::Kept)
     }
 
-    /// Returns the responses for a number of bands, vertical or horizontal; always stored.
+    /// Returns the responses of all sensors for a number of bands of the profile angle, always stored. `upright`:
+    /// whether the profile angle is in the horizontal plane (vertical structures).
     pub(super) fn kept_bands(
         &self,
         scene: &Scene,
@@ -374,6 +381,7 @@ impl Session {
         })
     }
 
+    /// Computes the direct light at every sensor from all apertures, which have no obstructions in front of them.
     fn direct(
         &self,
         scene: &Scene,
@@ -419,7 +427,7 @@ impl Session {
     }
 }
 
-/// Returns the note on an aperture's beams.
+/// Returns the note on how the beams of an aperture were computed.
 fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
     let note = emission.notes.iter().rev().find_map(|note| note.strip_prefix("sun: "));
     match (note, emission.beam_source) {
@@ -433,7 +441,7 @@ fn sun_word(emission: &Emission, interpolation: Interpolation) -> String {
     }
 }
 
-/// Returns the bases of an emission's parts on cells; one `None` if there are no such parts.
+/// Returns the bases of the emergent cells on which an aperture emits light; one `None` if it emits none on cells.
 fn bases(emission: &Emission) -> Vec<Option<&RingBasis>> {
     let own: Vec<_> = emission.cells.iter().map(|light| Some(&*light.basis)).collect();
     if own.is_empty() { vec![None] } else { own }
@@ -458,6 +466,7 @@ fn sensor_key(scene: &Scene) -> impl Iterator<Item = u64> + '_ {
     scene.sensors.iter().flat_map(|s| bits(s.position.to_array()).chain(bits(s.normal.to_array())))
 }
 
+/// Returns the key of an emergent basis in the caches; empty for none.
 pub(crate) fn basis_key(basis: Option<&RingBasis>) -> Key {
     let mut key = Vec::new();
     if let Some(basis) = basis {

@@ -1,4 +1,4 @@
-//! Sky and sun from the scene's `[sky]` and `[site]`: combinations of keys, and their ranges.
+//! Sky and sun of a scene from the keys `[sky]` and `[site]`: which keys may be given together, and their ranges.
 
 mod hour;
 mod illuminance;
@@ -20,8 +20,8 @@ use crate::compute::weather::Hour;
 use crate::formats::scan::read_scan;
 use std::path::Path;
 
-/// Returns sky, ground and skyline, and the sun if it has a beam and any part of its disc is above the horizon.
-/// `base_dir`: folder of the scene file, which `sky.file` is relative to.
+/// Returns sky, ground and skyline, and the sun if it has a direct illuminance and any part of its disc is above the
+/// horizon. `base_dir`: folder of the scene file, to which `sky.file` is relative.
 pub fn outside_from_keys(
     sky: &SkyKeys,
     site: &SiteKeys,
@@ -59,8 +59,8 @@ pub fn outside_from_keys(
     finished(outside, sun, direct_normal, sky, site)
 }
 
-/// Returns sky and sun of one hour of weather: with the ground of `site` and the skyline of `sky`, whose model and
-/// values are not used; scaled to 2e-5.
+/// Returns sky and sun of one weather hour, with the ground of `site` and the skyline of `sky`, whose model and values
+/// are not used. The illuminance to which the sky is scaled is accurate to 2e-5.
 ///
 /// # Errors
 /// Returns an error if ground or skyline are out of range.
@@ -68,8 +68,8 @@ pub fn outside_of_hour(hour: &Hour, sky: &SkyKeys, site: &SiteKeys) -> Result<(O
     finished(hour::sky_of(hour, Outside::quickly)?, Some(hour.sun), hour.direct_normal, sky, site)
 }
 
-/// Returns outside and sun of an hour under a uniform sky: for uses that need only the sun position, and whether there
-/// is light.
+/// Returns outside and sun of a weather hour under a uniform sky, for uses that need only the position of the sun, and
+/// whether there is light.
 ///
 /// # Errors
 /// Returns the errors of [`outside_of_hour`].
@@ -82,7 +82,7 @@ pub fn even_outside_of_hour(
     finished(even, Some(hour.sun), hour.direct_normal, sky, site)
 }
 
-/// Adds sun, ground and skyline to a sky.
+/// Adds sun, ground and skyline to a sky. `direct_normal`: direct normal illuminance. \[lx\]
 fn finished(
     outside: Outside,
     sun: Option<Dir<World>>,
@@ -139,7 +139,8 @@ fn measured(sky: &SkyKeys, base_dir: &Path) -> Result<Outside, SkyKeyError> {
     }
 }
 
-/// Returns the sky, and the direct normal illuminance \[lx\]: as given, else by luminous efficacy.
+/// Returns the Perez sky, and the direct normal illuminance \[lx\]: that of the scene, else from the irradiance by
+/// luminous efficacy. `eccentricity`: correction of the solar constant for the day.
 fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, f64), SkyKeyError> {
     let need = |key, value: Option<f64>| {
         value.ok_or_else(|| wrong(key, "missing: model \"perez\" needs it, in W/m² on the horizontal plane"))

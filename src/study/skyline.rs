@@ -1,4 +1,4 @@
-//! Skyline from `sky.skyline`, which varies with the bearing.
+//! Skyline of a scene whose altitude varies with the bearing, from the key `sky.skyline`.
 
 use super::scene_file::SkylineKeys;
 use crate::compute::limits;
@@ -7,10 +7,10 @@ use crate::compute::surroundings::Surroundings;
 use crate::compute::surroundings::skyline::Skyline;
 use std::sync::Arc;
 
-/// Name of a wrong key, and the error with what is expected.
+/// Full name of a wrong key, and a message on the error with what is expected.
 pub type Wrong = (&'static str, String);
 
-/// Checks `sky.skyline`, and creates the skyline.
+/// Checks the key `sky.skyline`, and creates the skyline.
 pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
     let wrong = |key, message: String| Err((key, message));
     if !(0.0..=limits::LUMINANCE).contains(&keys.luminance) {
@@ -43,7 +43,7 @@ pub fn skyline(keys: &SkylineKeys) -> Result<Skyline, Wrong> {
     }
 }
 
-/// Returns an outside with a skyline and without boxes.
+/// Returns an outside with a skyline added, and without boxes.
 pub fn behind_skyline(outside: Outside, skyline: Skyline) -> Outside {
     outside.behind(Arc::new(Surroundings::dark(Vec::new(), Some(skyline))))
 }

@@ -1,5 +1,5 @@
-//! All results of a scene that pictures and reports show, computed together by the calls that window and command line
-//! use.
+//! All results of a scene that pictures and reports show, computed together by the same calls that window and command
+//! line use.
 
 use super::control::device::is_upright;
 use super::control::slat_angle;
@@ -23,89 +23,92 @@ use crate::compute::lid::c_gamma::Peaks;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Request for results of a scene.
+/// Request for the results of a scene.
 pub struct Asked<'a> {
-    /// Scene file as typed.
+    /// Scene file, as typed.
     pub file: &'a SceneFile,
-    /// Folder that relative paths start from.
+    /// Folder from which relative paths start.
     pub base: &'a Path,
-    /// Chosen incident direction; `None`: that of the sun.
+    /// Incident direction for pictures of the product; `None`: that of the sun.
     pub incident: Option<Incident>,
-    /// Requested parts.
+    /// Requested kinds of results.
     pub wanted: Wanted,
 }
 
-/// Requested parts of the results; sky and system are always included.
+/// Kinds of results that are requested; sky and system are always included.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wanted {
-    /// Luminous-intensity distribution with its peaks.
+    /// Luminous intensity distribution of the first aperture, with its largest intensities.
     pub lid: bool,
     /// Illuminances in the room.
     pub room: bool,
-    /// Shading control over day and year.
+    /// States of the shading control over the scene's day and a year.
     pub control: bool,
-    /// Annual simulation, which takes longer than all other parts.
+    /// Annual simulation, which takes longer than all other results.
     pub year: bool,
 }
 
 impl Wanted {
-    /// All parts except the annual simulation.
+    /// All results except the annual simulation.
     pub const ALL: Self = Self { lid: true, room: true, control: true, year: false };
-    /// Sky and system alone.
+    /// Only sky and system.
     pub const NOTHING: Self = Self { lid: false, room: false, control: false, year: false };
 }
 
-/// Shading control of the first aperture's product.
+/// Shading control of the product in the first aperture, with its states over a day and a year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Controlled {
-    /// Control rule.
+    /// Rule of the control.
     pub mode: ControlMode,
-    /// Keys and values of the states, in ascending order of the values.
+    /// Keys and numbers of the states (such as slat angles \[°\]), in ascending order of the numbers.
     pub states: Vec<(String, f64)>,
-    /// Name and unit of the values, e.g. `slat angle / °`.
+    /// Name and unit of the states' numbers, such as `slat angle / °`.
     pub quantity: &'static str,
-    /// Curve of the rule: value over profile angle \[°\]; empty for rules without a curve.
+    /// Curve of the rule as points: profile angle of the sun \[°\], and number of the state such as the slat angle
+    /// \[°\]; empty for rules without a curve.
     pub curve: Vec<[f64; 2]>,
-    /// Points for every half hour of the scene's day; empty without site and date.
+    /// States at every half hour of the scene's day; empty without site and date.
     pub today: Vec<TodayPoint>,
-    /// Profile angle of the sun at the scene's moment \[°\]; `None` while it is not in front of the aperture.
+    /// Profile angle of the sun at the scene's moment \[°\]; `None` while the sun is not in front of the aperture.
     pub profile_angle: Option<f64>,
-    /// Index of the current state.
+    /// Index, in `states`, of the state at the scene's moment.
     pub current: usize,
-    /// Year of control; `None` without site and date.
+    /// States over a year; `None` without site and date.
     pub year: Option<Year>,
 }
 
-/// A scene with its results.
+/// Scene with the results that pictures and reports show.
 pub struct Subject {
-    /// Scene file as typed.
+    /// Scene file, as typed.
     pub file: SceneFile,
     /// Resolved scene.
     pub scene: Scene,
-    /// Product of the first aperture; `None` for files and ideal systems.
+    /// Product in the first aperture; `None` for files and ideal systems.
     pub product: Option<Product>,
-    /// Product and state of the first aperture in words.
+    /// Name of the product or system in the first aperture, with its state, as text.
     pub name: String,
-    /// Label of the first aperture's state; empty without states.
+    /// Label of the state of the first aperture's system; empty for a system without states.
     pub state: String,
-    /// Incidence that pictures of the product use.
+    /// Incident direction for which pictures of the product are drawn.
     pub incidence: Incidence,
-    /// Incident direction of the sun; `None` if it is not in front of the aperture.
+    /// Incident direction of the sun on the first aperture; `None` if the sun is not in front of it.
     pub sun: Option<Incident>,
-    /// Light of the first aperture, and its largest intensities.
+    /// Flux and luminous intensity distribution of the first aperture, and its largest intensities; `None` if not
+    /// requested.
     pub lid: Option<(LidResult, Peaks)>,
-    /// Illuminances in the room.
+    /// Illuminances in the room; `None` if not requested.
     pub room: Option<RoomResult>,
     /// Shading control; `None` if nothing moves, or if not requested.
     pub control: Option<Controlled>,
-    /// Annual simulation with its view; `None` if not requested.
+    /// Annual simulation, with the settings for displaying it; `None` if not requested.
     pub year: Option<(Arc<Annual>, Look)>,
-    /// Ranking with its view: never computed here.
+    /// Ranking, with the settings for displaying it; never computed here.
     pub ranking: Option<(Arc<Shortlist>, RankLook)>,
 }
 
 impl Subject {
-    /// Computes the requested parts. `product` returns a product of the catalogue by its key.
+    /// Computes the requested results of a scene. `product`: function that returns a product of the catalogue by its
+    /// key.
     ///
     /// # Errors
     /// Returns an error if the scene or its system is incomplete, or if cancelled.
@@ -175,17 +178,19 @@ impl Subject {
         })
     }
 
-    /// Data of the first aperture's system.
+    /// Returns the BSDF data of the first aperture's system.
     pub fn dataset(&self) -> &Dataset {
         &self.scene.apertures[0].system.dataset
     }
 
-    /// Returns the transmission of light from outside; present in every resolved scene except for luminaires.
+    /// Returns the transmission of the first aperture's system for light from outside; `None` only if luminaires
+    /// replace it.
     pub fn transmission(&self) -> Option<&Btdf> {
         self.dataset().transmission()
     }
 }
 
+/// Computes the states of a product's control over the scene's day and a year. `state`: key of the present state.
 fn controlled(
     file: &SceneFile,
     base: &Path,

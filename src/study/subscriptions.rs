@@ -1,22 +1,22 @@
-//! Folders of packages that a catalogue is subscribed to, read when they have changed.
+//! Folders of packages to which a catalogue is subscribed; they are read again when they have changed.
 
 use super::files;
 use crate::catalogue::{Catalogue, CatalogueError};
 use crate::compute::estimate::Progress;
 use std::path::{Path, PathBuf};
 
-/// Changes by reading all subscribed folders.
+/// Changes in the catalogue by reading all subscribed folders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Report {
-    /// Number of added or changed products.
+    /// Number of products that were added or changed.
     pub taken: usize,
-    /// Number of removed products.
+    /// Number of products that were removed.
     pub gone: usize,
-    /// Messages about missing folders and unused packages, one sentence each.
+    /// Messages about missing folders and packages that were not used, one sentence each.
     pub problems: Vec<String>,
 }
 
-/// Returns the packages in a folder, sorted.
+/// Returns the paths of the packages in a folder, sorted.
 fn packages(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut list = Vec::new();
     for entry in std::fs::read_dir(folder)? {
@@ -29,7 +29,7 @@ fn packages(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     Ok(list)
 }
 
-/// Returns the absolute path under which a folder is subscribed to.
+/// Returns the absolute path by which the catalogue names a subscribed folder.
 ///
 /// # Errors
 /// Returns a message if there is no such folder.
@@ -42,8 +42,8 @@ pub fn folder_of(path: &Path) -> Result<String, String> {
     Ok(whole.display().to_string())
 }
 
-/// Reads all subscribed folders again. A missing folder keeps its products; a package that is damaged, or whose data do
-/// not match their hashes, is reported and not used, and its earlier products stay.
+/// Reads all subscribed folders again. Products of a missing folder are not changed; a package that is damaged, or
+/// whose data do not match their hashes, is reported and not used, and the products read from it before remain.
 ///
 /// # Errors
 /// Returns an error of the catalogue itself.

@@ -1,6 +1,6 @@
-//! Sun position from place and local standard time, by the NREL Solar Position Algorithm.
+//! Position of the sun from geographic location and local standard time, by the NREL Solar Position Algorithm.
 //!
-//! Altitudes are true, without refraction: the 0.5° by which it lifts the sun on the horizon do not matter to rooms.
+//! Altitudes are true, without refraction, which raises the sun by 0.5° at the horizon and is negligible for rooms.
 //! Sunrise and sunset are those of calendars (upper limb, standard refraction).
 
 use crate::compute::angle::Bearing;
@@ -8,26 +8,26 @@ use jiff::civil::{Date, DateTime};
 use solar_positioning::time::JulianDate;
 use solar_positioning::{Horizon, Location, SolarEvents, SolarPositions, delta_t};
 
-/// Error of a sun position.
+/// Error in computing a position of the sun.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SunPositionError {
-    /// The text is not a date and time.
+    /// Text that is not a date and time.
     #[error("\"{0}\" is not a local standard time: write YYYY-MM-DDTHH:MM, optionally with :SS, without a zone")]
     Time(String),
-    /// The day is not in the calendar.
+    /// Day that the calendar does not have.
     #[error("there is no {year}-{month:02}-{day:02}")]
     Date {
-        /// Year.
+        /// Calendar year.
         year: i16,
         /// Month, 1 … 12.
         month: i8,
         /// Day of the month.
         day: i8,
     },
-    /// A coordinate is not on the globe, or an offset is not that of a clock.
+    /// Latitude, longitude or UTC offset that is out of range.
     #[error("{name} = {value} (allowed: {min} to {max})")]
     Place {
-        /// Name of the value.
+        /// Name of the wrong value.
         name: &'static str,
         /// Given value.
         value: f64,
@@ -36,12 +36,12 @@ pub enum SunPositionError {
         /// Maximum value.
         max: f64,
     },
-    /// The date is outside the algorithm's range.
+    /// Date outside the range of the algorithm.
     #[error("no position of the sun: {0}")]
     Algorithm(String),
 }
 
-/// A place on earth and its clock.
+/// Geographic location, with the UTC offset of its standard time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     latitude: f64,
@@ -50,8 +50,8 @@ pub struct Place {
 }
 
 impl Place {
-    /// Creates a place from latitude (north positive), longitude (east positive) \[°\] and the UTC offset of local
-    /// standard time \[h\].
+    /// Creates a location from latitude (north positive) \[°\], longitude (east positive) \[°\] and the UTC offset of
+    /// local standard time \[h\].
     pub fn new(latitude: f64, longitude: f64, utc_offset: f64) -> Result<Self, SunPositionError> {
         let within = |name, value: f64, min: f64, max: f64| {
             if (min..=max).contains(&value) { Ok(()) } else { Err(SunPositionError::Place { name, value, min, max }) }
@@ -67,7 +67,7 @@ impl Place {
     }
 }
 
-/// Sunrise and sunset of a day in local standard time; `None` if the sun does not cross the horizon.
+/// Sunrise and sunset of a day, in hours of local standard time; `None` if the sun does not cross the horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RiseSet {
     /// First sunrise of the day. \[h\]
@@ -76,18 +76,18 @@ pub struct RiseSet {
     pub set: Option<f64>,
 }
 
-/// Sun position at an hour of a day.
+/// Position of the sun at one time of a day.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PathPoint {
-    /// Local standard time. \[h\]
+    /// Local standard time, in hours from midnight. \[h\]
     pub hour: f64,
-    /// True altitude. \[rad\]
+    /// True altitude of the sun, without refraction. \[rad\]
     pub altitude: f64,
-    /// Compass bearing of the sun.
+    /// Compass bearing of the sun, clockwise from north.
     pub bearing: Bearing,
 }
 
-/// Parses `YYYY-MM-DDTHH:MM[:SS]`; a blank instead of the T is accepted, a zone is not.
+/// Reads a local time from text, `YYYY-MM-DDTHH:MM[:SS]`; a blank instead of the T is accepted, a time zone is not.
 pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
     let wrong = || SunPositionError::Time(text.chars().take(80).collect());
     let trimmed = text.trim();
@@ -99,7 +99,7 @@ pub fn parse_local_time(text: &str) -> Result<DateTime, SunPositionError> {
     trimmed.parse().map_err(|_| wrong())
 }
 
-/// Returns true altitude \[rad\] and bearing of the sun at a local standard time.
+/// Returns true altitude \[rad\] and compass bearing of the sun at a local standard time.
 pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), SunPositionError> {
     let hour = f64::from(time.hour())
         + f64::from(time.minute()) / 60.0
@@ -107,8 +107,8 @@ pub fn sun_position(place: &Place, time: DateTime) -> Result<(f64, Bearing), Sun
     position_at(place, time.date(), hour)
 }
 
-/// Returns the sun position every `step` hours (at least one minute) from 0 to 24 h of a day, above and below the
-/// horizon.
+/// Returns the positions of the sun over a day, every `step` hours \[h\] (at least one minute) from 0 to 24 h of local
+/// standard time, above and below the horizon.
 pub fn sun_path(place: &Place, year: i16, month: i8, day: i8, step: f64) -> Result<Vec<PathPoint>, SunPositionError> {
     let date = date(year, month, day)?;
     let count = (24.0 / step.clamp(1.0 / 60.0, 24.0)).round() as usize;
@@ -120,7 +120,7 @@ pub fn sun_path(place: &Place, year: i16, month: i8, day: i8, step: f64) -> Resu
         .collect()
 }
 
-/// Returns sunrise and sunset of a day.
+/// Returns sunrise and sunset of a day, in local standard time.
 pub fn rise_set(place: &Place, year: i16, month: i8, day: i8) -> Result<RiseSet, SunPositionError> {
     let date = date(year, month, day)?;
     let start = julian_midnight(date) - place.utc_offset / 24.0;
@@ -139,13 +139,13 @@ fn algorithm(error: solar_positioning::Error) -> SunPositionError {
     SunPositionError::Algorithm(error.to_string())
 }
 
-/// Returns the Julian date of a day's midnight, as if in UT. 1970-01-01 is 2440587.5.
+/// Returns the Julian date of midnight at the beginning of a day, as if in UT. 1970-01-01 is 2440587.5.
 fn julian_midnight(date: Date) -> f64 {
     let days = date.duration_since(jiff::civil::date(1970, 1, 1)).as_hours() / 24;
     2_440_587.5 + days as f64
 }
 
-/// Returns the difference TT − UT1. \[s\]
+/// Returns the difference TT − UT1 (terrestrial time minus universal time) on a date. \[s\]
 fn seconds_ahead(date: Date) -> Result<f64, SunPositionError> {
     delta_t::estimate(f64::from(date.year()) + f64::from(date.day_of_year()) / 365.25).map_err(algorithm)
 }

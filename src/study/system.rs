@@ -1,4 +1,4 @@
-//! Systems of a scene: ideal ones, files, the catalogue.
+//! Systems in the apertures of a scene: ideal ones, dataset files, products of the catalogue.
 
 use super::control::{ControlQuestion, Device};
 use super::error::StudyError;
@@ -10,32 +10,35 @@ use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
-/// A system that is ready for computations.
+/// System in an aperture, ready for computation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct System {
-    /// Label in results.
+    /// Label of the system in results.
     pub label: String,
-    /// Key of the state; empty for systems without states.
+    /// Key of the system's state; empty for systems without states.
     pub state: String,
-    /// Photometric data of the system.
+    /// BSDF dataset of the system.
     pub dataset: Arc<Dataset>,
-    /// Optical model for single directions; `None` if the system is known by its data alone.
+    /// Optical model of the system, which can be evaluated for single directions; `None` if the system is known by its
+    /// data alone.
     pub model: Option<SystemModel>,
 }
 
-/// Optical model of a system for single directions, with a model of the solar band if the description has solar
-/// properties. Two are equal if they are the same object.
+/// Optical model of a system, which can be evaluated for single directions, for visible light; with a second one for
+/// the solar band and the source of its properties, if the description has solar properties. Two are equal if they are
+/// the same object.
 #[derive(Clone)]
 pub struct SystemModel(pub Arc<dyn OpticalModel>, pub Option<(Arc<dyn OpticalModel>, SolarSource)>);
 
 impl SystemModel {
-    /// Returns the model of the solar band, or of light if there is none, and the source of the solar properties.
+    /// Returns the optical model for the solar band, or that for visible light if there is none, and the source of the
+    /// solar properties.
     pub fn solar(&self) -> (&dyn OpticalModel, SolarSource) {
         self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(model, source)| (&**model, *source))
     }
 
-    /// Whether light from sky and ground may be computed with the model. If not, the data are used: where thousands of
-    /// directions take too long, and where data separate regular transmission, which is more exact.
+    /// Whether light from sky and ground may be computed with the optical model. If not, the data are used: where
+    /// thousands of directions take too long, and where data separate regular transmission, which is more exact.
     pub fn answers_for_the_sky(&self) -> bool {
         self.0.is_quick() && !self.0.separates_regular()
     }
@@ -53,8 +56,8 @@ impl PartialEq for SystemModel {
     }
 }
 
-/// Returns the transmission of a dataset with regular transmission separated; `None` if none is recognised. Computed
-/// once per dataset.
+/// Returns the transmission of a dataset with regular transmission separated from scattered light; `None` if no regular
+/// transmission is recognised. Computed once per dataset.
 pub fn separate_regular(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     type Known = (Weak<Dataset>, Option<Arc<Btdf>>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
@@ -72,27 +75,29 @@ pub fn separate_regular(dataset: &Arc<Dataset>) -> Option<Arc<Btdf>> {
     found
 }
 
-/// Extent of a system's data that a scene needs.
+/// Extent of a system's data that a scene needs, so that no others are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Need {
-    /// All data of the system.
+    /// All data of the system, reflection included.
     Everything,
     /// Transmission of light from outside, unless the optical model is sufficient.
     Light {
-        /// Whether there is light from sky or ground.
+        /// Whether the scene has light from sky or ground.
         lit: bool,
     },
 }
 
-/// Source of the systems that `aperture.system` names.
+/// Source of the systems that the key `aperture.system` of a scene names.
 pub trait SystemLibrary: Sync {
-    /// Loads a system. Key names in errors are relative to the aperture.
+    /// Loads the system in an aperture. `base`: folder to which file names are relative; `need`: data that the scene
+    /// needs. Names of keys in errors are relative to the aperture.
     fn load(&self, keys: &SystemKeys, base: &Path, need: Need) -> Result<Arc<System>, StudyError>;
 
-    /// Returns the state that a control chooses for a product.
+    /// Returns the key of the state that a control chooses for a product. `asked`: input of the control.
     fn controlled_state(&self, product: &str, asked: &ControlQuestion<'_>) -> Result<String, StudyError>;
 
-    /// Returns the properties of a moving system that a control needs.
+    /// Returns the properties of a moving system that a shading control needs. `base`: folder to which file names are
+    /// relative.
     ///
     /// # Errors
     /// Returns an error if there is no such system, or if it has no moving states.
@@ -104,19 +109,20 @@ pub trait SystemLibrary: Sync {
         }
     }
 
-    /// Returns the state that a control chooses for a description in a file.
+    /// Returns the key of the state that a control chooses for the system in a description file. `asked`: input of the
+    /// control.
     fn controlled_description(&self, path: &Path, asked: &ControlQuestion<'_>) -> Result<String, StudyError> {
         let _ = asked;
         Err(StudyError::key("system.file", format!("{}: no descriptions are read here", path.display())))
     }
 
-    /// Returns the store of lit obstructions; `None` if they are not stored.
+    /// Returns the store of obstructions whose light was computed; `None` if this library does not store them.
     fn lit_obstructions(&self) -> Option<&LitObstructions> {
         None
     }
 }
 
-/// Creates an ideal system.
+/// Creates an ideal system. `transmittance`: visible transmittance τ, 0 … 1.
 pub fn ideal(kind: IdealKind, transmittance: f64) -> Result<Arc<System>, StudyError> {
     if !(0.0..=1.0).contains(&transmittance) {
         return Err(StudyError::key(

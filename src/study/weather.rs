@@ -1,4 +1,4 @@
-//! Weather files by name: relative to a scene, or built-in years.
+//! Weather data by name: files relative to a scene, or built-in years.
 
 use super::error::StudyError;
 use super::files;
@@ -15,14 +15,14 @@ use std::time::SystemTime;
 /// Prefix of the names of built-in years.
 pub const BUILTIN: &str = "builtin:";
 
-/// A built-in weather year.
+/// Weather year that comes with the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BuiltinYear {
-    /// Name without the prefix [`BUILTIN`].
+    /// Name of the year without the prefix [`BUILTIN`].
     pub key: &'static str,
-    /// Description: place, kind of year.
+    /// Description of the year in English: place, kind of year.
     pub words: &'static str,
-    /// Data of the year, see [`weather::table`].
+    /// Weather data of the year as text, see [`weather::table`].
     pub table: &'static str,
 }
 
@@ -46,12 +46,13 @@ pub const YEARS: [BuiltinYear; 3] = [
 ];
 
 impl BuiltinYear {
-    /// Returns the name in scenes, e.g. `builtin:renton`.
+    /// Returns the name by which scenes refer to the year, such as `builtin:renton`.
     pub fn name(&self) -> PathBuf {
         PathBuf::from(format!("{BUILTIN}{}", self.key))
     }
 
-    /// Returns latitude (north positive) and longitude (east positive) from the head of its table. \[°\]
+    /// Returns latitude (north positive) and longitude (east positive) of the year's station, from the head of its
+    /// table. \[°\]
     pub fn place(&self) -> Option<[f64; 2]> {
         let of = |key: &str| {
             let head = self.table.lines().take_while(|line| !line.is_empty());
@@ -62,7 +63,7 @@ impl BuiltinYear {
     }
 }
 
-/// Returns the description of a built-in year in the current language: place, kind of year.
+/// Returns the description of a built-in weather year in the current language: place, kind of year.
 pub fn words(year: &BuiltinYear) -> &'static str {
     match year.key {
         "new-york" => say::NEW_YORK.get(),
@@ -72,7 +73,7 @@ pub fn words(year: &BuiltinYear) -> &'static str {
     }
 }
 
-/// Returns a short name of a weather: the place of a built-in year, else the file's name.
+/// Returns a short name for weather data: the place of a built-in year, else the name of the file.
 pub fn short_name(name: &Path) -> String {
     let built_in = YEARS.iter().find(|year| *name == *year.name());
     // The place is the text before the first comma.
@@ -80,7 +81,8 @@ pub fn short_name(name: &Path) -> String {
     place.unwrap_or_else(|| name.file_name().unwrap_or(name.as_os_str()).to_string_lossy().into_owned())
 }
 
-/// Returns the built-in year nearest to a place \[latitude and longitude in °\], along the earth's surface.
+/// Returns the built-in year whose station is nearest to a place, along the earth's surface. `place`: latitude and
+/// longitude. \[°\]
 pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
     let upright = |[latitude, longitude]: [f64; 2]| {
         let (latitude, longitude) = (latitude.to_radians(), longitude.to_radians());
@@ -97,7 +99,8 @@ pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
     YEARS.iter().fold(&YEARS[0], |best, year| if better(near(year), near(best)) { year } else { best })
 }
 
-/// Reads a weather file like [`load`], and stores it as long as the file does not change.
+/// Reads weather data like [`load`], and stores them as long as the file does not change. `base`: folder to which the
+/// name is relative.
 ///
 /// # Errors
 /// Returns the errors of [`load`].
@@ -123,24 +126,24 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     Ok(made)
 }
 
-/// A weather file with its summary.
+/// Weather data with their summary, stored while the program runs.
 pub struct KeptWeather {
-    /// Content of the file.
+    /// Weather data of the file.
     pub weather: Weather,
-    /// Test of its clock, and its findings.
+    /// Summary of the data: test of the file's clock, and findings.
     pub summary: Summary,
 }
 
 impl KeptWeather {
-    /// Returns the warnings that belong to every figure of the weather. Not included are the test of the clock, which
-    /// depends on how the file is read, and missing values, which depend on the requested part of the year.
+    /// Returns the warnings that concern every result from the weather data. Not included are the test of the clock,
+    /// which depends on how the file is read, and missing values, which depend on the requested part of the year.
     pub fn warnings(&self) -> impl Iterator<Item = &Finding> {
         let depends = |code: &str| matches!(code, "clock-off" | "partial-year");
         self.summary.findings.iter().filter(move |one| one.severity > Severity::Info && !depends(one.code))
     }
 }
 
-/// Returns a warning of a weather file in the current language, by its code; the code itself if there is no text for
+/// Returns a warning about a weather file in the current language, by its code; the code itself if there is no text for
 /// it.
 pub fn warning_words(code: &'static str) -> &'static str {
     let words = match code {
@@ -160,8 +163,8 @@ pub fn warning_words(code: &'static str) -> &'static str {
     words.get()
 }
 
-/// Returns a moment in local standard time: seconds from the midnight of a record's day. A 29th of February in a common
-/// year is accepted as a row, but counted as the 28th, since no calendar has it.
+/// Returns a time of a weather record in local standard time. `seconds`: time from midnight of the record's day. A 29th
+/// of February in a common year is accepted in a file, but counted as the 28th, because no calendar has it.
 pub fn moment(record: &Record, seconds: f64) -> DateTime {
     let day = record.day;
     let of = |number: u8| Date::new(day.year, day.month.cast_signed(), number.cast_signed());
@@ -169,7 +172,7 @@ pub fn moment(record: &Record, seconds: f64) -> DateTime {
     date.at(0, 0, 0, 0).saturating_add(jiff::Span::new().seconds(seconds.round() as i64))
 }
 
-/// Reads a weather file, or a built-in year (`builtin:new-york`). A relative name starts from `base`.
+/// Reads a weather file, or a built-in year (`builtin:new-york`). `base`: folder to which a relative name refers.
 ///
 /// # Errors
 /// Returns an error that names the file with line and column, the error, and what is expected.

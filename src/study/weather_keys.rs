@@ -1,32 +1,33 @@
-//! Keys for reading a weather file, in `[sky]` and `[year]`.
+//! Keys in `[sky]` and `[year]` that say how a weather file is read.
 
 use crate::compute::weather::{LightSource, Reading, SunOffset, WIDEST_OFFSET};
 use serde::{Deserialize, Serialize};
 
-/// Values of `light`: source of the illuminances.
+/// Value of the key `light`: source of the illuminances in a weather file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LightKey {
-    /// Irradiances times luminous efficacies (Perez 1990).
+    /// Illuminances from the irradiances by luminous efficacies (Perez 1990).
     #[default]
     Efficacy,
-    /// Illuminances of the file where they exist and are plausible.
+    /// Illuminances of the file, where they exist and are plausible.
     File,
 }
 
 impl LightKey {
-    /// Whether the key has its default value, which is not written.
+    /// Whether the key has its default value, which is not written to the file.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
 }
 
-/// Values of `sun_offset_minutes`: offset by which the file's intervals lie later than it says, or "auto".
+/// Value of the key `sun_offset_minutes`: time by which the intervals of a weather file lie later than the file says,
+/// or "auto".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OffsetKey {
     /// Given offset. \[min\]
     Minutes(f64),
-    /// Offset at which the file's irradiances close best.
+    /// Offset at which the irradiances of the file (direct, diffuse, global) agree best.
     Auto,
 }
 
@@ -37,7 +38,7 @@ impl Default for OffsetKey {
 }
 
 impl OffsetKey {
-    /// Whether the key has its default value, which is not written.
+    /// Whether the key has its default value, which is not written to the file.
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
@@ -85,7 +86,7 @@ impl<'de> Deserialize<'de> for OffsetKey {
     }
 }
 
-/// Returns how a weather file is read with both keys.
+/// Returns the settings for reading a weather file that both keys give.
 pub fn reading(light: LightKey, offset: OffsetKey) -> Reading {
     Reading {
         light: match light {

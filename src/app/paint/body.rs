@@ -1,10 +1,11 @@
-//! A closed surface round a point, one radius for every direction: painted back to front, shaded by orientation.
+//! A closed surface round a point in 3D with one radius for every direction, as of a photometric solid: painted back to
+//! front, shaded by orientation.
 
 use super::camera::View;
 use egui::{Color32, Mesh, Painter, Pos2, Shape};
 use glam::DVec3;
 
-/// Closed surface on a grid of rows (from pole to pole) and columns (all round).
+/// Closed surface in 3D round the origin, whose nodes are a grid of rows (from pole to pole) and columns (all round).
 #[derive(Debug, Clone, Default)]
 pub struct Body {
     columns: usize,
@@ -13,14 +14,15 @@ pub struct Body {
 }
 
 impl Body {
-    /// Creates the surface from the point and colour of every node; rows run from 0 to `rows`, columns close round.
+    /// Creates the surface from `node`, which gives point and colour of the node in a row, from 0 to `rows` inclusive,
+    /// and a column, from 0 to `columns` exclusive; the last column is joined to the first.
     pub fn new(rows: usize, columns: usize, mut node: impl FnMut(usize, usize) -> (DVec3, Color32)) -> Self {
         let nodes = (0..=rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
         let (points, colours) = nodes.map(|(row, column)| node(row, column)).unzip();
         Self { columns, points, colours }
     }
 
-    /// Returns the four nodes of every piece, in order round it.
+    /// Returns the indices of the four nodes of every quadrilateral of the surface, in order round its edge.
     fn pieces(&self) -> impl Iterator<Item = [usize; 4]> + '_ {
         let n = self.columns.max(1);
         let rows = (self.points.len() / n).saturating_sub(1);
@@ -31,17 +33,19 @@ impl Body {
         })
     }
 
-    /// Paints the surface round a centre, scaled by `size`.
+    /// Paints the surface scaled by `size` round `centre` \[m\], as `view` shows it.
     pub fn paint(&self, painter: &Painter, view: &View, centre: DVec3, size: f64) {
         painter.add(Shape::mesh(self.mesh(view, centre, size)));
     }
 
-    /// Returns a node's point, of the surface of size 1 round the origin.
+    /// Returns the point of a node by its index, row · columns + column, for the surface of size 1 round the origin;
+    /// `None` if there is no such node.
     pub fn point(&self, node: usize) -> Option<DVec3> {
         self.points.get(node).copied()
     }
 
-    /// Returns the foremost node within a reach \[points\] of a place on the screen.
+    /// Returns the index of the node nearest to the camera among those within `reach` \[points\] of the screen position
+    /// `at`; `None` if there is none. `centre` and `size`: as in [`Self::paint`].
     pub fn nearest(&self, view: &View, centre: DVec3, size: f64, at: Pos2, reach: f32) -> Option<usize> {
         let near = |(node, point): (usize, &DVec3)| {
             let (place, depth) = view.screen(centre + size * *point)?;
@@ -51,6 +55,8 @@ impl Body {
         found.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(node, _)| node)
     }
 
+    /// Returns the triangles of the surface on the screen, from the farthest to the nearest; quadrilaterals with a node
+    /// behind the camera are left out.
     fn mesh(&self, view: &View, centre: DVec3, size: f64) -> Mesh {
         let places: Vec<_> = self.points.iter().map(|point| view.screen(centre + size * *point)).collect();
         let mut order: Vec<(u64, [usize; 4], f64)> = Vec::with_capacity(self.points.len());
@@ -87,7 +93,7 @@ impl Body {
     }
 }
 
-/// Returns a colour shaded by the cosine between a piece's normal and the viewing direction.
+/// Returns a colour shaded by the cosine of the angle between the normal of a quadrilateral and the viewing direction.
 fn shaded(colour: Color32, cosine: f64) -> Color32 {
     let share = 0.6 + 0.4 * cosine;
     let [r, g, b, a] = colour.to_array();

@@ -9,28 +9,28 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 const PER_POINT: f64 = 0.008;
 /// Rotation per press of an arrow key. \[rad\]
 const PER_KEY: f64 = 0.087;
-/// Minimum distance from the camera at which anything is drawn, relative to the object's radius.
+/// Minimum distance from the camera at which anything is drawn, as a fraction of the object's radius.
 const NEAR: f64 = 0.02;
 
-/// Direction from which an object is looked at, and zoom.
+/// Camera: the direction from which an object is looked at, and the zoom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Angle of the viewpoint about the vertical axis z, from +x towards +y. \[rad\]
     pub turn: f64,
-    /// Angle of the viewpoint above the horizontal. \[rad\]
+    /// Elevation of the viewpoint above the horizontal plane through the object's centre. \[rad\]
     pub tilt: f64,
     /// Magnification; at 1 the whole object is visible.
     pub zoom: f64,
 }
 
 impl Camera {
-    /// Creates a camera that shows the whole object from a direction. \[rad\]
+    /// Creates a camera that shows the whole object (zoom 1) from the direction of two angles \[rad\], see the fields.
     pub const fn from(turn: f64, tilt: f64) -> Self {
         Self { turn, tilt, zoom: 1.0 }
     }
 
-    /// Applies drag, wheel, arrow keys, + and − to the camera; Home returns to `first`. Returns whether the camera has
-    /// moved.
+    /// Rotates and zooms the camera by the drag, wheel, arrow keys, + and − of this frame; Home returns to `first`.
+    /// Returns whether the camera has changed.
     pub fn obey(&mut self, ui: &Ui, response: &Response, first: Self) -> bool {
         let before = *self;
         let drag = if response.dragged() { response.drag_delta() } else { Vec2::ZERO };
@@ -57,7 +57,8 @@ impl Camera {
         *self != before
     }
 
-    /// Returns the view of a sphere into a rectangle.
+    /// Returns the perspective view of an object, given by its enclosing sphere (centre and radius \[m\]), in a
+    /// rectangle of the screen.
     pub fn view(&self, centre: DVec3, radius: f64, rect: Rect) -> View {
         let (sin, cos) = self.turn.sin_cos();
         let (up, level) = self.tilt.sin_cos();
@@ -79,7 +80,8 @@ impl Camera {
     }
 }
 
-/// Draws text over a point, on a ground, kept inside an area.
+/// Draws text above a screen point on a background rectangle, moved so far that it lies inside `area`; nothing if the
+/// area is too small for it. Colours: of the text, of the background.
 pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, ground]: [Color32; 2]) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colour);
     let size = galley.size();
@@ -92,12 +94,12 @@ pub fn words(painter: &Painter, area: Rect, at: Pos2, text: &str, [colour, groun
     painter.galley(place, galley, colour);
 }
 
-/// Projection of space to the screen for one position of a camera.
+/// Perspective projection of points in 3D to the screen for one position of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Position of the viewpoint.
+    /// Position of the viewpoint, in the axes of the object. \[m\]
     pub eye: DVec3,
-    /// Unit vector to the right on the screen.
+    /// Unit vector in the axes of the object that points to the right on the screen.
     pub right: DVec3,
     up: DVec3,
     forward: DVec3,
@@ -107,8 +109,8 @@ pub struct View {
 }
 
 impl View {
-    /// Returns the screen point of a point and its distance in front of the camera; `None` behind the camera or too
-    /// near to it.
+    /// Returns the screen position of a point \[m\] and its depth, i.e. its distance in front of the camera along the
+    /// viewing direction \[m\]; `None` if it is behind the camera or too near to it.
     pub fn screen(&self, point: DVec3) -> Option<(Pos2, f64)> {
         let from = point - self.eye;
         let depth = from.dot(self.forward);
@@ -120,7 +122,8 @@ impl View {
         Some((pos2(self.middle.x + x as f32, self.middle.y + y as f32), depth))
     }
 
-    /// Returns a convex polygon on the screen, as far as it lies in front of the camera.
+    /// Returns the screen positions of the corners of a convex polygon (corners \[m\]), cut to the part in front of the
+    /// camera.
     pub fn polygon(&self, corners: &[DVec3]) -> Vec<Pos2> {
         let mut kept = Vec::new();
         // A little farther, so that no corner is lost by rounding.
@@ -128,14 +131,14 @@ impl View {
         kept.into_iter().filter_map(|p| Some(self.screen(p)?.0)).collect()
     }
 
-    /// Returns the direction in which a point of the screen is seen.
+    /// Returns the unit vector, in the axes of the object, in which the camera sees a screen position.
     pub fn ray(&self, at: Pos2) -> DVec3 {
         let [x, y] = [at.x - self.middle.x, self.middle.y - at.y].map(|v| f64::from(v) / self.focal);
         // The three stand on each other: the sum is at least as long as the first.
         (self.forward + x * self.right + y * self.up).normalize_or_zero()
     }
 
-    /// Whether a plane, given by a point and a normal, shows its front side to the camera.
+    /// Whether a plane, given by a point \[m\] and a normal, shows the camera the side that the normal points to.
     pub fn faces(&self, point: DVec3, normal: DVec3) -> bool {
         (self.eye - point).dot(normal) > 0.0
     }

@@ -1,21 +1,22 @@
-//! Colours of values, and a readable legend for them: linear or logarithmic, with unit.
+//! Colours of false-colour scales in the window, and their legend: linear or logarithmic, with unit.
 
 use super::palette::{ColourMapExt as _, Palette};
 use crate::drawing::ticks;
 use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, pos2, vec2};
 
-/// Height that a legend needs. \[points\]
+/// Height that the legend of a colour scale needs. \[points\]
 pub const LEGEND_HEIGHT: f32 = 32.0;
 
 pub use crate::drawing::colours::ColourScale;
 
-/// Colours and legend of a scale in the window.
+/// Colours and legend of a [`ColourScale`] in the window.
 pub trait ColourScaleExt {
-    /// Returns the colour of a value.
+    /// Returns the colour of a value, given in the unit of the scale.
     fn colour(&self, value: f64) -> Color32;
 
-    /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): bar, ticks, unit, and a needle at `pointed`.
+    /// Paints the legend into `rect` (see [`LEGEND_HEIGHT`]): colour bar, ticks, unit, and a needle at the value
+    /// `pointed`, i.e. the value under the pointer, if there is one.
     fn paint_legend(&self, painter: &Painter, rect: Rect, unit: &str, pointed: Option<f64>, palette: &Palette);
 }
 

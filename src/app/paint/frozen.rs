@@ -1,18 +1,19 @@
-//! Shapes that stay the same from frame to frame: turned into triangles once.
+//! Shapes that are the same in many frames: they are converted to triangles once instead of in every frame.
 
 use egui::epaint::Tessellator;
 use egui::{Mesh, Shape, Ui};
 use std::sync::Arc;
 
-/// Resolution that triangles depend on beside the shapes: bits of the pixels per point.
+/// Resolution of the screen, on which the triangles of a shape depend: the number of pixels per point, as the bits of
+/// an `f32`.
 pub type Grain = u32;
 
-/// Returns the resolution of triangles, for keys of cached meshes.
+/// Returns the resolution of the screen, as part of the keys of cached meshes.
 pub fn grain(ui: &Ui) -> Grain {
     ui.pixels_per_point().to_bits()
 }
 
-/// Returns shapes without text as triangles.
+/// Returns the triangles of shapes, which must not contain text.
 pub fn frozen(ui: &Ui, shapes: impl IntoIterator<Item = Shape>) -> Arc<Mesh> {
     let options = ui.ctx().tessellation_options(|options| *options);
     // Texts alone need the font's texture.

@@ -1,5 +1,5 @@
-//! A hemisphere as a disk in the window: meshes of its cells, its frame, and its cells by the arrow keys. The
-//! projection of directions to points of the disk is that of [`crate::drawing::hemisphere`].
+//! A hemisphere of directions as a disk in the window: meshes of its cells, its frame, and the choice of cells by the
+//! arrow keys. The projection of directions to points of the disk is that of [`crate::drawing::hemisphere`].
 
 use super::palette::Palette;
 use crate::compute::basis::{Cell, RingBasis};
@@ -10,37 +10,39 @@ use egui::epaint::TextShape;
 use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Width by which a cell extends under its neighbours: larger than gaps by chords and rounding, too small to be seen.
-/// \[points\]
+/// Width by which a drawn cell extends under its neighbours \[points\]: larger than the gaps that chords and rounding
+/// leave, and too small to be seen.
 const OVERLAP: f32 = 0.6;
 
-/// Position of a hemisphere's disk on the screen.
+/// Position of the disk of a hemisphere on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disk {
-    /// Centre of the disk.
+    /// Screen position of the centre of the disk.
     pub centre: Pos2,
-    /// Radius of the rim. \[points\]
+    /// Radius of the rim (θ = 90°). \[points\]
     pub radius: f32,
 }
 
 impl Disk {
-    /// Creates the largest disk within a rectangle that leaves room for the words at the rim.
+    /// Creates the largest disk within a rectangle that leaves room for the labels at the rim.
     pub fn within(rect: Rect) -> Self {
         Self { centre: rect.center(), radius: (0.5 * rect.width().min(rect.height()) - 17.0).max(8.0) }
     }
 
-    /// Returns the screen point of a disk point.
+    /// Returns the screen position of a point of the disk, given in disk coordinates (right, up) with the rim at radius
+    /// 1.
     pub fn screen(&self, [right, up]: [f64; 2]) -> Pos2 {
         self.centre + egui::vec2(right as f32, -up as f32) * self.radius
     }
 
-    /// Returns the disk point of a screen point.
+    /// Returns the disk coordinates (right, up) of a screen position, with the rim at radius 1.
     pub fn disk(&self, at: Pos2) -> [f64; 2] {
         let d = (at - self.centre) / self.radius;
         [f64::from(d.x), f64::from(-d.y)]
     }
 
-    /// Returns all cells of a basis in flat colours, without gaps.
+    /// Returns a mesh of all cells of an angular basis, each in the colour that `colour` gives for its index, without
+    /// gaps.
     ///
     /// Neighbouring rings have arcs of other chords, so that cells that end exactly at their borders leave slivers
     /// open. Each cell therefore extends a little under the next ring and the next cell, which are drawn after it.
@@ -76,8 +78,8 @@ impl Disk {
         mesh
     }
 
-    /// Returns the borders between cells, each once: drawn twice, by the cells on both sides and with other chords,
-    /// they would beat.
+    /// Returns the border lines between the cells of an angular basis on the screen, each line once: drawn by the cells
+    /// on both sides, with different chords, a line would show a moiré pattern.
     pub fn borders(&self, projection: Projection, side: Side, basis: &RingBasis) -> Vec<Vec<Pos2>> {
         let place = |radius: f64, phi: f64| self.screen(side.polar(radius, phi));
         let mut lines = Vec::new();
@@ -92,7 +94,8 @@ impl Disk {
         lines
     }
 
-    /// Returns a mesh of a continuous function on the disk (given disk coordinates), evaluated at 30 × 72 points.
+    /// Returns a mesh of the disk with smoothly varying colours. `value`: colour at disk coordinates (right, up); it is
+    /// evaluated on 31 radii by 72 azimuths.
     pub fn smooth(&self, value: impl Fn([f64; 2]) -> Color32) -> Mesh {
         const RINGS: u32 = 30;
         const SECTORS: u32 = 72;
@@ -115,7 +118,7 @@ impl Disk {
         mesh
     }
 
-    /// Draws the rim, faint rings at θ 30° and 60° with their labels, and the mark of "up".
+    /// Draws the rim, faint rings at θ = 30° and 60° with their labels, and the label "up" above the disk.
     pub fn rim(&self, painter: &Painter, projection: Projection, palette: &Palette) {
         let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
         for deg in [30_f64, 60.0] {
@@ -131,7 +134,7 @@ impl Disk {
         painter.text(top, Align2::CENTER_BOTTOM, say::UP, FontId::proportional(13.0), palette.weak);
     }
 
-    /// Draws [`Self::rim`], the words at the sides, and a caption under the disk.
+    /// Draws [`Self::rim`], the labels "left" and "right" at the sides, and the caption `corner` under the disk.
     pub fn frame(&self, painter: &Painter, projection: Projection, corner: &str, palette: &Palette) {
         self.rim(painter, projection, palette);
         let font = FontId::proportional(13.0);
@@ -147,7 +150,8 @@ impl Disk {
     }
 }
 
-/// Draws small text on data: a soft ground makes it readable on every colour.
+/// Draws small text, centred at a screen position, over coloured data: a translucent background makes it readable on
+/// every colour. Returns the rectangle of the text.
 pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Rect {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
@@ -156,8 +160,9 @@ pub fn on_halo(painter: &Painter, at: Pos2, text: &str, palette: &Palette) -> Re
     rect
 }
 
-/// Returns the point of a set that lies next in a direction of the screen (right, up), within 60°: the nearest, with
-/// the distance aside counted double. It serves to choose cells of any basis by the arrow keys.
+/// Returns the index of the point that follows `from` in a screen direction (right, up), among points within 60° of
+/// this direction: the nearest, with the sideways distance counted twice. `None` if there is none. Points in disk
+/// coordinates. Arrow keys choose the cells of any angular basis in this manner.
 pub fn neighbour(points: &[[f64; 2]], from: [f64; 2], [dx, dy]: [f64; 2]) -> Option<usize> {
     points
         .iter()

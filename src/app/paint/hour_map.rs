@@ -1,4 +1,5 @@
-//! A map of hours in the window: a picture between axes, its legend under it, a mark that pointer and arrow keys set.
+//! A map of the hours of a year in the window (day of year by hour of day): a picture between axes, its legend under
+//! it, and a marked hour that pointer and arrow keys choose.
 
 use super::colour_scale::{ColourScaleExt as _, LEGEND_HEIGHT};
 use super::palette::Palette;
@@ -13,7 +14,7 @@ use egui::{
 };
 use egui_plot::{PlotImage, PlotPoint};
 
-/// Texture that is kept as long as this value.
+/// Texture of the map's picture, freed with this value.
 #[derive(Clone)]
 struct Picture(TextureHandle);
 
@@ -23,34 +24,34 @@ impl std::fmt::Debug for Picture {
     }
 }
 
-/// State of a map between frames.
+/// State of an hour map between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Picture of the map, with the revision it was made for and whether the theme was dark.
+    /// Picture of the map, with the revision of the map it shows and whether the theme was dark.
     picture: Option<((u64, bool), Picture)>,
 }
 
-/// Input of the map.
+/// Input of an hour map in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Map to draw.
+    /// Map to draw, with a value or state for every cell.
     pub map: &'a HourMap,
-    /// Number that changes with the map.
+    /// Revision number of the map, which changes whenever the map does; the picture is then made again.
     pub revision: u64,
-    /// Cell that is marked.
+    /// Index of the marked cell, if one is marked.
     pub mark: Option<usize>,
-    /// Whether the map is part of a page, whose scrolling keeps the wheel.
+    /// Whether the map is part of a scrolled page, so that the wheel scrolls the page instead of zooming the map.
     pub on_page: bool,
 }
 
-/// Response to pointer and keys.
+/// Cells that the user clicked, reached or pointed at in one frame.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Answer {
-    /// Cell that was clicked.
+    /// Index of the cell that was clicked.
     pub picked: Option<usize>,
-    /// Cell that arrow keys moved to.
+    /// Index of the cell that arrow keys moved to.
     pub walked: Option<usize>,
-    /// Cell under the pointer.
+    /// Index of the cell under the pointer.
     pub pointed: Option<usize>,
 }
 
@@ -65,7 +66,7 @@ fn picture(ui: &Ui, map: &HourMap, empty: Color32) -> Picture {
     Picture(ui.ctx().load_texture("map-of-hours", image, TextureOptions::NEAREST))
 }
 
-/// Draws map and legend into a rectangle.
+/// Draws an hour map and its legend into a rectangle.
 pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Answer {
     let palette = Palette::of(ui.visuals());
     let map = input.map;
@@ -112,12 +113,13 @@ pub fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> An
     Answer { picked: clicked, walked, pointed }
 }
 
-/// Returns a cell as text: `21 Jun, 12:00–13:00: 512 lx`.
+/// Returns date, hours and value of a cell as text: `21 Jun, 12:00–13:00: 512 lx`.
 pub fn spoken(map: &HourMap, cell: usize) -> String {
     say::cell_is(map.when(cell), map.words(cell))
 }
 
-/// Moves the mark by arrow keys: by an hour or a day, with Shift by three hours or thirty days. Returns the new cell.
+/// Returns the cell to which arrow keys move the mark: by an hour (up, down) or a day (left, right), with Shift by
+/// three hours or thirty days. `None` without a key.
 fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize> {
     if !response.has_focus() {
         return None;
@@ -154,7 +156,8 @@ fn keys(ui: &Ui, response: &Response, input: &Input<'_>, id: Id) -> Option<usize
     Some(next)
 }
 
-/// Draws the legend of states and their colours; where not all names fit, every n-th of them.
+/// Draws the legend of a map of states: a coloured square and the name of each state; if not all names fit, every n-th
+/// of them.
 fn names_legend(ui: &Ui, rect: Rect, names: &[String], palette: &Palette) {
     let font = FontId::proportional(13.0);
     let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), palette.ink).size().x;

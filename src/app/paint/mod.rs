@@ -1,5 +1,5 @@
-//! Drawing that several tiles share: colour scales, hemispheres, polar axes, plots, iso-lines.
-//! Nothing here knows photometry beyond the projections of a hemisphere.
+//! Drawing shared by several tiles: colour scales, hemispheres, polar axes, plots, cameras. It contains no photometry
+//! beyond the projections of a hemisphere.
 
 pub mod body;
 pub mod camera;

@@ -1,13 +1,14 @@
-//! Colours of the pictures: the two data maps and the neutral greys, for light and dark windows.
+//! Colours of the pictures: the colour maps of data and the neutral greys, for the light and the dark theme.
 
 use crate::drawing::{Rgb, chart::SERIES, colours};
 use egui::{Color32, Visuals};
 
 pub use crate::drawing::colours::ColourMap;
 
-/// Colours of a map in the window.
+/// Colours of a colour map in the window.
 pub trait ColourMapExt {
-    /// Returns the colour of a fraction in the window; values outside 0 … 1 get the end colours, NaN the lower one.
+    /// Returns the colour at a fraction of the colour map, 0 (lower end) … 1 (upper end); fractions outside get the end
+    /// colours, NaN the lower one.
     fn at(self, fraction: f32) -> Color32;
 }
 
@@ -18,7 +19,7 @@ impl ColourMapExt for ColourMap {
     }
 }
 
-/// Greys and accents of one theme.
+/// Grey tones and accent colours of the pictures in one theme.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Palette {
     /// Colour of text and main lines.
@@ -29,9 +30,9 @@ pub struct Palette {
     pub grid: Color32,
     /// Colour of borders of pictures.
     pub outline: Color32,
-    /// Ground of a picture without data.
+    /// Background of a picture where there are no data.
     pub face: Color32,
-    /// Ground behind text that lies on data.
+    /// Background of text that is drawn over coloured data, translucent.
     pub halo: Color32,
     /// Colour of the first curve and of the selection.
     pub first: Color32,
@@ -39,18 +40,18 @@ pub struct Palette {
     pub second: Color32,
     /// Colour of the sun.
     pub sun: Color32,
-    /// Colour of ground in the sun.
+    /// Colour of parts of a picture in the sun.
     pub sunlit: Color32,
-    /// Colour of ground in the shade.
+    /// Colour of parts of a picture in the shade.
     pub shade: Color32,
-    /// Colour of unscattered light.
+    /// Colour of unscattered transmitted light, i.e. of the direct beam.
     pub beam: Color32,
-    /// Colours of the series of a plot with many.
+    /// Colours of the series of a plot with more than two.
     pub series: [Color32; 5],
 }
 
 impl Palette {
-    /// Returns the colours of a theme.
+    /// Returns the colours for the theme of these visuals, light or dark.
     pub fn of(visuals: &Visuals) -> Self {
         let grey = Color32::from_gray;
         let rgb = |colours: [Rgb; 5]| colours.map(|[r, g, b]| Color32::from_rgb(r, g, b));
@@ -90,7 +91,7 @@ impl Palette {
     }
 }
 
-/// Returns black or white, whichever reads better on a ground.
+/// Returns black or white, whichever is more readable as text on a background of the given colour.
 pub fn contrast(ground: Color32) -> Color32 {
     let [r, g, b] = colours::contrast([ground.r(), ground.g(), ground.b()]);
     Color32::from_rgb(r, g, b)

@@ -1,5 +1,5 @@
-//! Plots in the window, by egui_plot: a drag moves the view, the wheel zooms, a drag with the right button zooms to a
-//! box, a double click shows all again. Points near the pointer show their values.
+//! Line plots in the window, by egui_plot: a drag moves the view, the wheel zooms, a drag with the right button zooms
+//! to a box, a double click shows all data again. Points near the pointer show their values.
 //!
 //! The legend stands above the plot instead of in it, since in a small tile it would cover the data; it works as
 //! egui_plot's does: a click hides a series, the pointer on a name emphasises it.
@@ -15,44 +15,46 @@ use egui_plot::{
     MarkerShape, PlotMemory, PlotPoint, PlotTransform, PlotUi, Points,
 };
 
-/// Space left of the plotting area. \[points\]
+/// Space for ticks and labels to the left of the plotting area. \[points\]
 pub const LEFT: f32 = 44.0;
-/// Space right of the plotting area, for the half of the last tick. \[points\]
+/// Space to the right of the plotting area, for half of the last tick label. \[points\]
 pub const RIGHT: f32 = 10.0;
-/// Space under the plotting area: for ticks alone, and for ticks with a title. \[points\]
+/// Space under the plotting area: for tick labels alone, and for tick labels with the title of the axis. \[points\]
 const BELOW: [f32; 2] = [17.0, 36.0];
-/// Font size of ticks and names. \[points\]
+/// Font size of tick labels and series names. \[points\]
 const TICKS: f32 = 13.0;
 
-/// Height of a line above the plot. \[points\]
+/// Height of a line of text above the plot. \[points\]
 const LINE: f32 = 18.0;
 
 /// Appearance of a plot, and its response to the pointer.
 #[derive(Debug, Clone, Copy)]
 pub struct Look<'a> {
-    /// Unique id, under which the view is also kept.
+    /// Unique id of the plot, under which the visible ranges of its axes are stored between frames.
     pub id: Id,
-    /// Colours of the series, one for each.
+    /// Colours of the series, in their order.
     pub colours: &'a [Color32],
-    /// Colour of the guides, the lines to compare with.
+    /// Colour of the guides, i.e. of the lines of fixed values to compare the series with.
     pub guide: Color32,
-    /// Space for the numbers left of the plot. \[points\]
+    /// Space for the tick labels to the left of the plotting area. \[points\]
     pub left: f32,
-    /// Another plot's [`id`](Self::id), whose legend applies here too; `None`: the plot has its own legend.
+    /// [`id`](Self::id) of another plot whose legend also hides series of this plot; `None` if the plot has a separate
+    /// legend.
     pub legend_of: Option<Id>,
-    /// Whether the plot is part of a page: the wheel moves the page, zooming takes Ctrl as well, and values under the
-    /// pointer stand in a corner.
+    /// Whether the plot is part of a scrolled page: the wheel scrolls the page, zooming requires Ctrl, and the values
+    /// under the pointer are shown in a corner of the plot.
     pub on_page: bool,
-    /// Whether the plot takes the keyboard when clicked.
+    /// Whether the plot takes the keyboard focus when clicked.
     pub focusable: bool,
-    /// Whether the view stays because the caller handles drags and clicks on what is under the pointer.
+    /// Whether drags and the wheel leave the ranges of the axes unchanged, because the caller uses them for something
+    /// under the pointer, such as a point of a curve.
     pub held: bool,
     /// Whether series are distinguished by dashes as well as by colour.
     pub dashed: bool,
 }
 
 impl<'a> Look<'a> {
-    /// Creates the look of a plot in a tile.
+    /// Creates the appearance of a plot that fills a tile.
     pub fn tile(id: Id, colours: &'a [Color32], guide: Color32) -> Self {
         Self {
             id,
@@ -67,7 +69,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// Returns the length of dashes, for egui_plot and for the legend; `None`: a solid line.
+    /// Returns the length of the dashes of a series by its index \[points\]; `None` for a solid line.
     fn dash(&self, series: usize) -> Option<f32> {
         const DASHES: [Option<f32>; 3] = [None, Some(10.0), Some(4.0)];
         DASHES[series % 3].filter(|_| self.dashed)
@@ -78,57 +80,59 @@ impl<'a> Look<'a> {
     }
 }
 
-/// Plot as it was drawn.
+/// Plot as it was drawn in this frame.
 #[derive(Debug, Clone)]
 pub struct Shown {
     /// Response of the plotting area.
     pub response: Response,
-    /// Transform between the plot's coordinates and the screen.
+    /// Transform between coordinates of the axes and screen positions.
     pub transform: PlotTransform,
-    /// Names of the series that the legend hides.
+    /// Names of the series that the user has hidden by the legend.
     pub hidden: Vec<String>,
 }
 
 impl Shown {
-    /// Returns the transform of the plot in the last frame.
+    /// Returns the transform between coordinates of the axes and screen positions that a plot, given by its id, had in
+    /// the last frame; `None` if it was not drawn.
     pub fn transform_before(ui: &Ui, id: Id) -> Option<PlotTransform> {
         PlotMemory::load(ui.ctx(), id).map(|memory| memory.transform())
     }
 
-    /// Returns the plotting area.
+    /// Returns the rectangle of the plotting area on the screen.
     pub fn area(&self) -> Rect {
         *self.transform.frame()
     }
 
-    /// Returns the place on the screen of a point in coordinates of the axes.
+    /// Returns the screen position of a point, given in coordinates (x, y) of the axes.
     pub fn screen(&self, point: [f64; 2]) -> Pos2 {
         screen(&self.transform, point)
     }
 
-    /// Returns the coordinates of the axes at a place on the screen.
+    /// Returns the coordinates (x, y) of the axes at a screen position.
     pub fn coordinates(&self, at: Pos2) -> [f64; 2] {
         let point = self.transform.value_from_position(at);
         [point.x, point.y]
     }
 
-    /// Returns the coordinates of a click.
+    /// Returns the coordinates (x, y) of the axes at which the plot was clicked in this frame; `None` without a click.
     pub fn clicked(&self) -> Option<[f64; 2]> {
         let at = self.response.interact_pointer_pos().filter(|_| self.response.clicked());
         at.map(|at| self.coordinates(at))
     }
 
-    /// Returns the coordinates under the pointer.
+    /// Returns the coordinates (x, y) of the axes under the pointer; `None` if the pointer is not on the plot.
     pub fn pointed(&self) -> Option<[f64; 2]> {
         self.response.hover_pos().map(|at| self.coordinates(at))
     }
 }
 
-/// Returns the place on the screen of a point in coordinates of the axes.
+/// Returns the screen position of a point, given in coordinates (x, y) of the axes.
 pub fn screen(transform: &PlotTransform, [x, y]: [f64; 2]) -> Pos2 {
     transform.position_from_point(&PlotPoint::new(x, y))
 }
 
-/// Draws a plot into a rectangle that also holds ticks, labels and legend; `under` adds what lies behind the series.
+/// Draws a plot into a rectangle, which also holds ticks, labels and legend; `under` draws what lies behind the series,
+/// such as a picture.
 pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl FnOnce(&mut PlotUi<'_>)) -> Shown {
     let palette = Palette::of(ui.visuals());
     let hidden_id = look.legend_of.unwrap_or(look.id).with("hidden");
@@ -213,8 +217,9 @@ pub fn show(ui: &mut Ui, rect: Rect, plot: &Plot, look: &Look<'_>, under: impl F
     shown
 }
 
-/// Draws the title of y and, for more than one series, the legend, on as many lines as the width requires. Returns
-/// their lower edge, and the series whose name is under the pointer.
+/// Draws the title of the y axis and, for more than one series, the legend, in as many lines as the width requires.
+/// Returns the screen position of their lower edge \[points\], and the index of the series whose name is under the
+/// pointer.
 fn head(
     ui: &mut Ui,
     rect: Rect,
@@ -252,7 +257,7 @@ fn head(
     (head.min_rect().bottom(), lit)
 }
 
-/// Draws a name of the legend with its colour.
+/// Draws the entry of a series in the legend: a line in its colour and with its dashes, and its name.
 fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palette: &Palette) -> Response {
     let swatch = if dash.is_some() { 28.0 } else { 16.0 };
     let galley = ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(TICKS), palette.ink);
@@ -270,7 +275,8 @@ fn entry(ui: &mut Ui, name: &str, (colour, dash): (Color32, Option<f32>), palett
     response
 }
 
-/// Returns the hints of an axis with its type, colour and room.
+/// Returns the hints of egui_plot for an axis, completed by its tick labels, its colour and the space it takes
+/// \[points\].
 fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32) -> AxisHints<'a> {
     // The spacers thin the ticks already.
     hints
@@ -281,7 +287,7 @@ fn hints<'a>(hints: AxisHints<'a>, axis: &'a Axis, palette: &Palette, room: f32)
         .tick_label_font(FontId::proportional(TICKS))
 }
 
-/// Returns ticks at least about `distance` points from one another.
+/// Returns the ticks of an axis, at least about `distance` \[points\] apart.
 fn marks(axis: &Axis, input: &GridInput, distance: f64) -> Vec<GridMark> {
     let (lo, hi) = input.bounds;
     // The base step is eight points.
@@ -292,7 +298,8 @@ fn marks(axis: &Axis, input: &GridInput, distance: f64) -> Vec<GridMark> {
     inside.map(|value| GridMark { value, step_size: step }).collect()
 }
 
-/// Adds a series to egui_plot, its gaps as gaps: values that are not finite must not reach egui_plot.
+/// Adds a series to egui_plot as one line for every run of finite values, because egui_plot accepts no others. `lit`:
+/// whether the series is emphasised.
 fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (Color32, Option<f32>), lit: bool) {
     for band in plot.bands(series) {
         let column = |k: usize| -> Vec<f64> { band.iter().map(|point| point[k]).collect() };
@@ -313,7 +320,8 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (
     }
 }
 
-/// Draws the names of the guides at their right ends, as far as no other guide runs through them.
+/// Draws the names of the guides (lines of fixed values) at their right ends, except names that another guide would
+/// cross.
 fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
     let area = shown.area();
     let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));

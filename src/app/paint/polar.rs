@@ -1,44 +1,48 @@
-//! Polar diagrams as lighting designers draw them: nadir down, rings of equal value, angles at the rim.
+//! Polar diagrams of luminous intensities in the style of lighting design: nadir at the bottom, rings of equal value,
+//! angles at the rim.
 
 use super::palette::Palette;
 use crate::drawing::ticks;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2};
 use std::f64::consts::{PI, TAU};
 
-/// Space for the angles round the rim. \[points\]
+/// Width of the space for the angle labels round the rim. \[points\]
 const RIM: f32 = 26.0;
 
-/// Axes of a polar diagram.
+/// Axes of a polar diagram on the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PolarAxes {
-    /// Pole of the diagram on the screen.
+    /// Screen position of the diagram's pole (value 0).
     pub centre: Pos2,
     /// Radius of the outermost ring. \[points\]
     pub radius: f32,
-    /// Value of the outermost ring.
+    /// Value of the outermost ring, in the unit of the plotted quantity.
     pub max: f64,
 }
 
 impl PolarAxes {
-    /// Creates the largest diagram within a rectangle; `max` is rounded up.
+    /// Creates the largest diagram within a rectangle. `max`: largest value to show, rounded up for the outermost ring.
     pub fn within(rect: Rect, max: f64) -> Self {
         let radius = (0.5 * rect.width().min(rect.height()) - RIM).max(10.0);
         Self { centre: rect.center(), radius, max: ticks::fine_ceil(max) }
     }
 
-    /// Returns the screen point of an angle counted from straight down towards the right \[rad\] and a value.
+    /// Returns the screen position of a value at an angle, which is counted from straight down towards the right
+    /// \[rad\].
     pub fn screen(&self, angle: f64, value: f64) -> Pos2 {
         let r = (value / self.max).clamp(0.0, 1.05) as f32 * self.radius;
         self.centre + egui::vec2(angle.sin() as f32, angle.cos() as f32) * r
     }
 
-    /// Returns angle from straight down towards the right, −π … π \[rad\], and value of a screen point.
+    /// Returns the angle of a screen position, counted from straight down towards the right, −π … π \[rad\], and the
+    /// value at its distance from the pole.
     pub fn value(&self, at: Pos2) -> (f64, f64) {
         let d = at - self.centre;
         (f64::from(d.x).atan2(f64::from(d.y)), f64::from(d.length() / self.radius) * self.max)
     }
 
-    /// Draws rings with values (on the side that `label_angle` gives), spokes every 30°, and angles by `label`.
+    /// Draws rings with their values along the angle `label_angle` \[rad\], and spokes every 30° with the text that
+    /// `label` gives for their angle \[rad\].
     pub fn paint(&self, painter: &Painter, label: impl Fn(f64) -> String, label_angle: f64, palette: &Palette) {
         let grid = Stroke::new(1.0, palette.grid);
         let font = FontId::proportional(13.0);
@@ -62,7 +66,8 @@ impl PolarAxes {
         }
     }
 
-    /// Returns the closed curve of equally spaced samples over a full turn, the first straight down.
+    /// Returns the screen positions of a closed curve through values at equally spaced angles over a full turn, the
+    /// first straight down.
     pub fn curve(&self, samples: &[f64]) -> Vec<Pos2> {
         let n = samples.len() as f64;
         samples.iter().enumerate().map(|(k, v)| self.screen(TAU * k as f64 / n, v.max(0.0))).collect()

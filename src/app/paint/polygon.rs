@@ -2,10 +2,11 @@
 
 use egui::{Color32, Mesh, Pos2, pos2};
 
-/// Maximum number of corners of a polygon that is filled: the work grows with the square.
+/// Maximum number of corners of a polygon that is filled: the computing time grows with the square of the number.
 const MOST_CORNERS: usize = 400;
 
-/// Returns the inside of a polygon that does not cross itself, as trapezoids between the heights of its corners.
+/// Returns a mesh that fills a polygon whose edges do not cross, as trapezoids between the heights of its corners on
+/// the screen; empty for too many corners.
 pub fn fill(corners: &[Pos2], colour: Color32) -> Mesh {
     let mut mesh = Mesh::default();
     if corners.len() < 3 || corners.len() > MOST_CORNERS {

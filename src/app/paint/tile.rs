@@ -1,4 +1,4 @@
-//! Parts that every tile has: title, unit, toggles, '?', the line with the value under the cursor, and its status
+//! Parts common to all tiles: title, unit, toggles, '?', the line with the value under the pointer, and the status
 //! (empty, preliminary, outdated, with an error).
 
 use super::palette::Palette;
@@ -8,22 +8,22 @@ use egui::{Align, Align2, Color32, FontId, Id, Layout, Rect, RichText, Sense, Ui
 /// Status of a tile's content.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Status<'a> {
-    /// Whether the result is preliminary; the exact one is on its way.
+    /// Whether the result shown is preliminary, computed with few samples or cells.
     pub coarse: bool,
-    /// Whether the result belongs to an earlier scene; it is drawn faded until replaced.
+    /// Whether the result shown is outdated, i.e. belongs to an earlier scene; it is drawn faded.
     pub stale: bool,
-    /// Whether nothing newer is computed: an outdated or preliminary result stays so.
+    /// Whether no newer result is being computed, so that an outdated or preliminary result stays.
     pub idle: bool,
-    /// Whether something is being dragged: colour scales and axes stay as they are.
+    /// Whether the user is dragging something, during which colour scales and axes must not change.
     pub hold_scale: bool,
-    /// Work that a newer picture waits for, in a few words; shown while this one is outdated.
+    /// Computation that a newer result waits for, in a few words; shown while the result is outdated.
     pub doing: Option<&'a str>,
-    /// Reason why there is nothing to show.
+    /// Reason why there is no result to show.
     pub error: Option<&'a str>,
 }
 
 impl<'a> Status<'a> {
-    /// Returns the note on a picture that is not the final one; `None` for a final one.
+    /// Returns the note on a picture that is outdated or preliminary; `None` for a final one.
     pub fn tag(&self) -> Option<&'a str> {
         match (self.stale, self.coarse, self.idle) {
             (true, _, false) => match self.doing {
@@ -38,29 +38,30 @@ impl<'a> Status<'a> {
     }
 }
 
-/// Line under a picture, from its fullest wording to its shortest: the first that fits is shown.
+/// Line of text under the picture of a tile, such as the value under the pointer, in wordings from the fullest to the
+/// shortest; the first that fits is shown.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Foot(Vec<String>);
 
 impl Foot {
-    /// Returns the fullest wording.
+    /// Returns the fullest wording of the line.
     pub fn full(&self) -> &str {
         self.0.first().map_or("", String::as_str)
     }
 
-    /// Returns all wordings with a text before them.
+    /// Returns the line with `start` put before each of its wordings.
     pub fn after(self, start: &str) -> Self {
         Self(self.0.into_iter().map(|text| format!("{start}{text}")).collect())
     }
 
-    /// Returns the line with a shorter wording added, for the case that none of the others fits.
+    /// Returns the line with a shorter wording added, which is shown if none of the others fits.
     pub fn or(mut self, shortest: &str) -> Self {
         self.0.push(shortest.to_owned());
         self
     }
 
-    /// Returns the first wording that is at most `room` wide; else the last, without its parts after " · " as far as
-    /// needed.
+    /// Returns the first wording that is at most `room` wide \[points\]; if there is none, the last wording, shortened
+    /// by as many of its parts after " · " as necessary.
     fn fitting(&self, ui: &Ui, room: f32) -> String {
         let fits = |text: &str| width(ui, text, SMALL) <= room;
         if let Some(text) = self.0.iter().find(|text| fits(text)) {
@@ -98,36 +99,36 @@ impl<const N: usize> From<[String; N]> for Foot {
     }
 }
 
-/// Texts of a tile.
+/// Texts of a tile, and the width of its controls.
 #[derive(Debug, Clone, Copy)]
 pub struct Words<'a> {
-    /// Title, sentence case.
+    /// Title of the tile, in sentence case.
     pub title: &'a str,
-    /// Quantity and unit, or the product's name.
+    /// Subtitle: quantity and unit, or the product's name.
     pub subtitle: &'a str,
-    /// Text of '?': one sentence and its source.
+    /// Tooltip of '?': one sentence about the quantity, and the source of its definition.
     pub help: &'a str,
     /// Text shown instead of the picture while there is nothing to draw.
     pub empty: Option<&'a str>,
-    /// Width that the toggles need side by side; below it they go into a menu. \[points\]
+    /// Width that the controls need side by side \[points\]; in less space they are put into a menu.
     pub controls_width: f32,
 }
 
-/// Font size of all text but titles. \[points\]
+/// Font size of all text of a tile except its title. \[points\]
 const SMALL: f32 = 13.0;
 /// Font size of a tile's title. \[points\]
 const TITLE: f32 = 14.0;
-/// Width of the two buttons of a head with the space round them. \[points\]
+/// Width of the two buttons in the head of a tile, including the space round them. \[points\]
 const BUTTONS: f32 = 96.0;
-/// Minimum width of the subtitle; narrower it would be a letter or two, and is only in the title's tooltip. \[points\]
+/// Minimum width of the subtitle \[points\]; in less space it appears in the title's tooltip only.
 const LEAST_SUBTITLE: f32 = 54.0;
-/// Height of the head. \[points\]
+/// Height of the head of a tile. \[points\]
 const HEAD: f32 = 26.0;
-/// Height of the line under the picture. \[points\]
+/// Height of the line under the picture of a tile. \[points\]
 const FOOT: f32 = 20.0;
 
-/// Lays out a tile over all the space there is. `body` draws into its rectangle and returns the text of the line
-/// under the picture, which keeps its place so that nothing jumps.
+/// Draws a tile over all available space. `controls` draws the toggles in the head; `body` draws the picture into its
+/// rectangle and returns the line under it, whose space is always reserved so that the picture does not move.
 pub fn show<F: Into<Foot>>(
     ui: &mut Ui,
     words: &Words<'_>,
@@ -175,22 +176,24 @@ pub fn show<F: Into<Foot>>(
     ui.allocate_rect(full.expand2(egui::vec2(6.0, 2.0)), Sense::hover());
 }
 
-/// Returns the id under which the line of the tile that was last under the pointer is kept.
+/// Returns the id under which egui stores the line of the tile that was last under the pointer.
 fn pointed_id() -> Id {
     Id::unique("line of the tile under the pointer")
 }
 
-/// Returns the full text of the line under the tile that was last under the pointer.
+/// Returns the fullest wording of the line under the picture of the tile that was last under the pointer; `None` if
+/// there was none.
 pub fn pointed_foot(ctx: &egui::Context) -> Option<String> {
     ctx.data(|data| data.get_temp(pointed_id()))
 }
 
-/// Returns the width of a line of text. \[points\]
+/// Returns the width of one line of text at a font size. \[points\]
 fn width(ui: &Ui, text: &str, size: f32) -> f32 {
     ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(size), Color32::PLACEHOLDER).size().x
 }
 
-/// Draws the head. Returns `true` if it shows all that the status has to say.
+/// Draws the head of a tile: title, subtitle, note on the status, controls. Returns `true` if there was room for the
+/// note.
 fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, controls: impl FnOnce(&mut Ui)) -> bool {
     let palette = Palette::of(ui.visuals());
     let mut head = ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::right_to_left(Align::Center)));
@@ -247,14 +250,14 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     .inner
 }
 
-/// Draws text in the middle of a tile, instead of its picture.
+/// Draws text in the middle of a tile instead of its picture.
 fn notice(ui: &mut Ui, rect: Rect, text: &str, colour: Color32) {
     let mut child =
         ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
     child.add(egui::Label::new(RichText::new(text).size(SMALL).color(colour)).wrap());
 }
 
-/// Draws a whole tile that has nothing to draw yet: head and text.
+/// Draws a whole tile that has no picture yet: its head, and `text` in the middle.
 pub fn waiting(ui: &mut Ui, title: &str, help: &str, text: &str, is_error: bool) {
     let status = Status { error: is_error.then_some(text), ..Status::default() };
     let words = Words { title, subtitle: "", help, empty: Some(text), controls_width: 0.0 };
@@ -266,7 +269,7 @@ pub fn caption(ui: &Ui, at: egui::Pos2, align: Align2, text: &str) -> Rect {
     ui.painter().text(at, align, text, FontId::proportional(13.0), Palette::of(ui.visuals()).weak)
 }
 
-/// Gives a painted object its name and value for screen readers, and for tests.
+/// Sets the name and value of a painted object for screen readers and for tests.
 pub fn name(ui: &Ui, response: &egui::Response, name: impl Into<String>, value: &str) {
     let name: String = name.into();
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Image, true, name.as_str()));

@@ -1,8 +1,9 @@
-//! The tile area: tiles where its layout has them, or one that fills it.
+//! The tile area: tiles arranged by its layout, or one tile that fills it.
 //!
-//! A tile is grabbed by its head: dragged it docks elsewhere or becomes a tab, double clicked it fills the tile area.
-//! With the keyboard on the head arrow keys go to the tile on that side, with Shift they change places with it, with
-//! Alt they make the tile wider, narrower, higher or lower; Enter fills the tile area.
+//! Dragging the head of a tile docks it elsewhere or makes it a tab; a double click on the head lets the tile fill the
+//! tile area. While the head has the keyboard focus, arrow keys move the focus to the tile on that side, with Shift
+//! they exchange the two tiles, with Alt they make the tile wider, narrower, higher or lower; Enter lets it fill the
+//! tile area.
 
 use crate::app::arrange::{Arrange, Way};
 use crate::app::command::Command;
@@ -15,7 +16,7 @@ use crate::texts::tiles as say;
 use egui::{Color32, EventFilter, Key, Modifiers, Rect, Response, Sense, Stroke, Ui, UiBuilder, Visuals, vec2};
 use egui_tiles::{Behavior, EditAction, ResizeState, TabState, TileId, Tiles, Tree, UiResponse};
 
-/// Minimum size to which a tile can be dragged. \[points\]
+/// Minimum width and height to which a tile can be resized. \[points\]
 const LEAST: f32 = 120.0;
 
 /// Draws the tile area.
@@ -46,7 +47,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Returns the free space at both sides of a tab's name: less where all names of a bar would not fit. \[points\]
+/// Returns the free space on each side of a tab's name \[points\]: less if not all names of a tab bar would fit.
 fn tab_spacing(ui: &Ui, tree: &Tree<Tile>) -> f32 {
     const SPACING: std::ops::RangeInclusive<f32> = 2.0..=10.0;
     let name = |id: &TileId| match tree.tiles.get(*id) {
@@ -67,12 +68,12 @@ fn tab_spacing(ui: &Ui, tree: &Tree<Tile>) -> f32 {
     room.fold(*SPACING.end(), f32::min).max(*SPACING.start())
 }
 
-/// Behaviour of the tiles that dock.
+/// Drawing and behaviour of docked tiles for egui_tiles.
 struct Docking<'a> {
     app: &'a mut App,
     commands: &'a mut Vec<Command>,
     edited: bool,
-    /// Free space at both sides of a tab's name. \[points\]
+    /// Free space on each side of a tab's name. \[points\]
     spacing: f32,
 }
 
@@ -136,7 +137,7 @@ impl Behavior<Tile> for Docking<'_> {
     }
 }
 
-/// Draws a tile with its ground and head. Returns `true` when it begins to be dragged.
+/// Draws a tile with its background and head. Returns `true` in the frame in which a drag of the tile starts.
 fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<Command>) -> bool {
     let palette = theme::palette(ui);
     let head = Rect::from_min_size(rect.min, vec2((rect.width() * 0.5).min(120.0), 26.0));
@@ -187,7 +188,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     response.drag_started() && app.state.maximised.is_none()
 }
 
-/// Draws a tile's own menu.
+/// Draws the menu of a tile.
 fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
     let list = [Command::ExportTile(tile), Command::CopyTile(tile), Command::CopyPicture(tile), Command::CopyValue];
     for command in list {
@@ -207,7 +208,7 @@ fn menu(ui: &mut Ui, tile: Tile, commands: &mut Vec<Command>) {
     }
 }
 
-/// Applies the keys while a tile's head has the keyboard.
+/// Executes the keys of this frame if the head of a tile has the keyboard focus.
 fn keys(ui: &Ui, head: &Response, fill: &Command, commands: &mut Vec<Command>) {
     if !head.has_focus() {
         return;

@@ -20,7 +20,7 @@ use crate::study::control::year::CONTROLLED;
 use crate::texts::catalogue as text;
 use egui::{Align, Key, Layout, Ui};
 
-/// Draws the panel.
+/// Draws the catalogue panel.
 pub fn show(
     ui: &mut Ui,
     state: &mut State,
@@ -87,7 +87,7 @@ pub fn show(
     states_strip(ui, state, strip, commands);
 }
 
-/// Draws the search field. Returns whether its text was entered.
+/// Draws the search field. Returns whether its text was confirmed by Enter.
 fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mut Vec<Command>) -> bool {
     let field =
         ui.add(egui::TextEdit::singleline(&mut query.text).hint_text(text::SEARCH_HINT).desired_width(f32::INFINITY));
@@ -105,7 +105,7 @@ fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mu
     field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter))
 }
 
-/// Returns the height of what stands under the list. \[points\]
+/// Returns the height of the parts of the panel under the list of products. \[points\]
 fn below(ui: &Ui, state: &State) -> f32 {
     let line = ui.spacing().interact_size.y + 2.0 * ui.spacing().item_spacing.y;
     match title::selected(state).map_or(0, |product| product.states.len()) {
@@ -114,7 +114,7 @@ fn below(ui: &Ui, state: &State) -> f32 {
     }
 }
 
-/// Draws the states of the selected product, under the list.
+/// Draws the states of the selected product under the list of products.
 fn states_strip(ui: &mut Ui, state: &State, strip: &mut states::State, commands: &mut Vec<Command>) {
     let Some(product) = title::selected(state) else { return };
     if product.states.len() < 2 {

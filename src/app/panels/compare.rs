@@ -1,4 +1,5 @@
-//! The line of the comparison, always visible while there are candidates, and the comparison in place of the tile area.
+//! The line with the candidates of the comparison, always visible while there are any, and the comparison itself, which
+//! replaces the tile area.
 
 mod beside;
 mod curves;
@@ -17,14 +18,14 @@ use crate::texts::{Text, compare as texts};
 use egui::{Align, Key, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
 use places::{short, tile_words};
 
-/// Mean width of a letter in a chip. \[points\]
+/// Mean width of a letter in the chip of a candidate. \[points\]
 const LETTER: f32 = 7.2;
-/// Height of the comparison's line. \[points\]
+/// Height of the line with the candidates. \[points\]
 const LINE: f32 = 28.0;
-/// Font size of the name of the candidate that is shown. \[points\]
+/// Font size of the name of a candidate that is shown alone. \[points\]
 const LARGE: f32 = 18.0;
 
-/// Draws the comparison's line with its candidates.
+/// Draws the line with the candidates of the comparison.
 pub fn comparison_line(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let comparison = &state.document.scene.compare;
     let view = &state.compare;
@@ -63,7 +64,8 @@ pub fn comparison_line(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) 
     });
 }
 
-/// Draws a candidate in the comparison's line: a menu of its commands, or its name while that is typed.
+/// Draws the chip of a candidate (given by its index): a menu of its commands, or a text field while the user types its
+/// name. `act` takes the commands that the user gives.
 fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnMut(Act)) {
     let comparison = &state.document.scene.compare;
     let name = label(&comparison[place]);
@@ -113,7 +115,7 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
     menu.response.on_hover_text(&full).accessible_name(texts::candidate(&full));
 }
 
-/// Draws the comparison.
+/// Draws the comparison in the space of the tile area.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let whole = ui.available_rect_before_wrap();
@@ -130,7 +132,8 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the choice of the form of comparison, and of the tile.
+/// Draws the choices of the kind of comparison (tiles side by side, curves, difference, figures) and of the tile that
+/// is compared.
 fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let view = &app.state.compare;
     let mut act = |act: Act| commands.push(Command::Compare(act));

@@ -1,4 +1,4 @@
-//! The export sheet: content, format, preview and target of an export.
+//! The side panel of an export: its content, format, preview, and target folder and name.
 
 use crate::app::command::Command;
 use crate::app::export_choices::{Choices, MOST_FILES, Preview, ReportKind, What};
@@ -14,10 +14,10 @@ use crate::texts::words::MONTHS;
 use crate::texts::{Text, export as texts, stages};
 use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, TextureOptions, Ui, vec2};
 
-/// Height of the fields of longer texts. \[rows\]
+/// Height of the fields for longer texts. \[lines\]
 const ROWS: usize = 5;
 
-/// Draws the sheet.
+/// Draws the side panel of an export.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let before = app.state.settings.export.clone();
     let mut choices = before.clone();
@@ -42,6 +42,8 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
+/// Draws the choices of content and format, and the options of the chosen format. `candidates`: number of candidates in
+/// the comparison.
 fn options(ui: &mut Ui, choices: &mut Choices, candidates: usize) {
     match choices.what {
         What::Picture => {
@@ -162,6 +164,8 @@ fn text(ui: &mut Ui, label: Text, text: &mut String, rows: usize) {
     }
 }
 
+/// Draws the options of a series of luminaire files: months and hours (on the 21st of each month), and whether to write
+/// all states.
 fn series(ui: &mut Ui, choices: &mut Choices) {
     let series = &mut choices.series;
     ui.label(texts::ON_THE_21ST);
@@ -182,7 +186,7 @@ fn series(ui: &mut Ui, choices: &mut Choices) {
     ui.checkbox(&mut series.all_states, texts::ALL_STATES.get()).on_hover_text(texts::all_states_tip(MOST_FILES));
 }
 
-/// Draws folder and name, and the buttons.
+/// Draws the fields of folder and file name, and the buttons that write or copy.
 fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let state = &app.state;
     let mut text = state.path.clone();
@@ -240,7 +244,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     });
 }
 
-/// Returns a size in bytes as text for people.
+/// Returns a file size, given in bytes, as text with a suitable unit.
 fn bytes(count: usize) -> String {
     match count {
         0..10_000 => texts::bytes(count),
@@ -249,6 +253,7 @@ fn bytes(count: usize) -> String {
     }
 }
 
+/// Draws the preview of the export: picture, beginning of the text, or list of files.
 fn preview(ui: &mut Ui, app: &App) {
     let export = &app.state.export;
     let busy = app.jobs.busy(Lane::Preview);

@@ -1,4 +1,4 @@
-//! Fields and buttons that panels share. Invalid input is reported under its field and changes nothing.
+//! Input fields and buttons shared by the panels. Invalid input is reported under its field and changes nothing.
 
 use crate::app::command::Command;
 use crate::app::offer::{Offer, key_words};
@@ -16,12 +16,12 @@ use egui::{
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-/// Text under a field until it is used again.
+/// Text under an input field until the field is used again.
 #[derive(Debug, Clone, PartialEq)]
 enum FieldMessage {
     /// Reason why the input was refused.
     Refused(String),
-    /// Note that another value was changed with it.
+    /// Note that another value was changed together with the field's.
     Note(String),
 }
 
@@ -29,7 +29,8 @@ fn key(ui: &Ui, label: &str) -> egui::Id {
     ui.make_persistent_id((label, "note"))
 }
 
-/// Shows under a field what its last change brought with it, until the next one.
+/// Sets a note under a field, given by its label, about other values that its last change also changed; it is shown
+/// until the field changes again.
 pub fn note(ui: &Ui, label: impl Into<&'static str>, text: String) {
     let key = key(ui, label.into());
     ui.data_mut(|data| data.insert_temp(key, FieldMessage::Note(text)));
@@ -46,7 +47,7 @@ fn show_message(ui: &mut Ui, label: &str) {
     ui.add(Label::new(RichText::new(text).color(colour)).wrap());
 }
 
-/// Draws a label on the left, its field on the right.
+/// Draws a line with a label on the left and its field on the right. Returns the response of the field.
 pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) -> Response {
     ui.horizontal(|ui| {
         let name = ui.label(label);
@@ -55,8 +56,8 @@ pub fn row(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Response) ->
     .inner
 }
 
-/// Draws a labelled number with unit and range. Returns `true` where it changed. A number beyond the range is reported
-/// and not taken over, and one that is there already is left as it is.
+/// Draws an input field for a number, with label, unit and range. Returns `true` if the number changed. A typed number
+/// outside the range is reported and not taken over; a value outside the range that is there already is not changed.
 pub fn number(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -69,7 +70,8 @@ pub fn number(
     number_by(ui, (label.into(), unit.into()), value, range, decimals, speed)
 }
 
-/// Draws a number, named with its unit, that changes by `speed` per point of a drag: for wide ranges.
+/// Draws an input field for a number like [`number`], with a chosen change `speed`
+/// \[unit of the number per point of a drag\], for wide ranges.
 pub fn number_by(
     ui: &mut Ui,
     (label, unit): (&str, &str),
@@ -126,7 +128,7 @@ pub fn number_by(
     *value != before
 }
 
-/// Draws a number that the scene may lack: a button then sets it to `start`.
+/// Draws an input field for a number that may be absent in the scene: in this case a button, which sets it to `start`.
 pub fn optional(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -149,22 +151,23 @@ pub fn optional(
     }
 }
 
-/// Draws a figure that is shown and not typed.
+/// Draws a labelled figure that is shown only and cannot be edited.
 pub fn figure(ui: &mut Ui, label: impl Into<&'static str>, text: &str) {
     row(ui, label.into(), |ui| ui.label(text));
 }
 
-/// Text that is being typed into a field, or was refused.
+/// Text of a field that is being typed, or was invalid.
 #[derive(Debug, Clone)]
 struct Draft {
     text: String,
-    /// Text that the field showed before.
+    /// Text that the field showed before the user typed.
     of: String,
     wrong: Option<String>,
 }
 
-/// Draws a labelled field whose text is read as a whole when it is left; text that cannot be read is reported under it
-/// and changes nothing. Returns what was read.
+/// Draws a labelled text field whose text is parsed by `read` when the field loses the keyboard focus; text that cannot
+/// be parsed is reported under the field and changes nothing. Returns the parsed value in the frame in which it is
+/// entered.
 pub fn typed<T>(
     ui: &mut Ui,
     label: impl Into<&'static str>,
@@ -216,9 +219,9 @@ pub fn typed<T>(
     taken
 }
 
-/// Gives the keyboard to the field that the sheet was opened to type in. It keeps asking until the field has the
-/// keyboard: another widget, or a key of the same frame, may remove it again. The palette has priority while it is
-/// open.
+/// Gives the keyboard focus to the field for which the side panel was opened. The focus is requested in every frame
+/// until the field has it, because another widget, or a key of the same frame, may remove it again. The command palette
+/// has priority while it is open.
 pub fn take_keyboard(field: &Response, state: &State, commands: &mut Vec<Command>) {
     if !state.wants_keyboard || state.palette.is_some() {
     } else if field.has_focus() {
@@ -228,15 +231,15 @@ pub fn take_keyboard(field: &Response, state: &State, commands: &mut Vec<Command
     }
 }
 
-/// Selects the whole text of a field, so that typing replaces it.
+/// Selects the whole text of a text field, given by its id, so that typing replaces it.
 pub fn select_all(ui: &Ui, id: egui::Id, text: &str) {
     let mut state = TextEditState::load(ui.ctx(), id).unwrap_or_default();
     state.cursor.set_char_range(Some(CCursorRange::two(CCursor::default(), CCursor::new(text.chars().count()))));
     state.store(ui.ctx(), id);
 }
 
-/// Draws text that takes the height of `rows` lines whatever its length, so that nothing below it moves; in full on
-/// hovering.
+/// Draws text in a constant height of `rows` lines whatever its length, so that nothing below it moves; a tooltip shows
+/// the full text.
 pub fn lines(ui: &mut Ui, text: &str, colour: Color32, rows: usize) {
     let font = TextStyle::Body.resolve(ui.style());
     let width = ui.available_width();
@@ -253,7 +256,7 @@ pub fn lines(ui: &mut Ui, text: &str, colour: Color32, rows: usize) {
     }
 }
 
-/// Returns a button with the text and keys of its command.
+/// Returns a button with the text and the keyboard shortcut of a command.
 pub fn button(offer: &Offer) -> Button<'_> {
     let button = Button::new(&offer.text);
     match &offer.keys {

@@ -1,4 +1,5 @@
-//! The goniophotometer's sheet: the description as text and drawing, the settings of the run, the result.
+//! The side panel of the virtual goniophotometer: the description of the system as text and drawing, the settings of
+//! the simulated measurement, its result.
 
 use crate::app::command::{Command, SYSTEM_EDITOR};
 use crate::app::examples::EXAMPLES;
@@ -14,12 +15,12 @@ use crate::study::control::slat_angle;
 use crate::texts::{decimal, fixed, goniophotometer as texts};
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
 
-/// Minimum height of editor and drawing. \[points\]
+/// Minimum height of text editor and drawing. \[points\]
 const LEAST_HEIGHT: f32 = 220.0;
-/// Height of what stands above and below editor and drawing. \[points\]
+/// Height of the parts of the panel above and below text editor and drawing. \[points\]
 const REST: f32 = 250.0;
 
-/// Draws the sheet.
+/// Draws the side panel of the virtual goniophotometer.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     examples(ui, commands);
     let height = (ui.ctx().content_rect().height() - REST - 150.0).max(LEAST_HEIGHT);
@@ -44,6 +45,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
+/// Draws the button that opens a system file, and the buttons that start from an example.
 fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         let open = ui.button(texts::OPEN).on_hover_text(texts::OPEN_TIP);
@@ -59,6 +61,8 @@ fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
     });
 }
 
+/// Draws the text editor for the description of the system, of a height \[points\], and under it the error of the text
+/// or a summary of the system.
 fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) {
     let name = ui.label(texts::GEOMETRY);
     let mut text = bench.text.clone();
@@ -94,6 +98,7 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
     }
 }
 
+/// Draws the section through the described system, of a height \[points\], and the choice of the state drawn.
 fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>) {
     let bench = &app.state.goniophotometer;
     let system = bench.valid().map(|described| &described.file.system);
@@ -131,6 +136,8 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
     }
 }
 
+/// Draws the settings of the measurement (incident directions, emergent cells, maximum error); they cannot be changed
+/// while it is running.
 fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>) {
     let mut setup = bench.setup;
     ui.horizontal_wrapped(|ui| {
@@ -166,6 +173,8 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
     }
 }
 
+/// Draws the button that starts or stops the measurement. `running`: progress of the current state, 0 … 1; `None` if no
+/// measurement is running.
 fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if let Some(fraction) = running {
@@ -194,6 +203,8 @@ fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<
     });
 }
 
+/// Draws a table of the measured states (transmittance, quality figures, computing time), and the buttons that add them
+/// to the catalogue or export them.
 fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
     if run.finished.is_empty() {
         return;

@@ -1,5 +1,5 @@
-//! The import sheet: the files that were read, the products they make, open questions, and what will be stored; drafts
-//! of earlier imports.
+//! The side panel of an import: the files that were read, the products they form, open questions, and what will be
+//! stored; drafts of earlier imports.
 
 mod detail;
 mod findings;
@@ -14,10 +14,11 @@ use crate::texts::import as text;
 use egui::{ScrollArea, Ui};
 pub(super) use findings::of_selection;
 
-/// Width of a sheet below which the texts about a product stand under the table. \[points\]
+/// Width of the side panel below which the texts about a product are shown under the table instead of beside it.
+/// \[points\]
 const NARROW: f32 = 620.0;
 
-/// Draws the sheet.
+/// Draws the side panel of an import.
 pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     actions(ui, state, commands);
     let Some(import) = &state.import else {
@@ -50,7 +51,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the commands for what was read.
+/// Draws the buttons for the import as a whole: add to the catalogue, save as draft, discard, accept all proposals.
 fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(import) = &state.import else { return };
     let ready = import.products.iter().filter(|product| product.ready()).count();
@@ -88,7 +89,7 @@ fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the numbers of products and states, and the grouping of the files as a whole.
+/// Draws the numbers of products and states, and the choice of how all files are grouped into products.
 fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         let products = number(import.products.len(), text::ONE_PRODUCT, text::products);
@@ -116,7 +117,7 @@ fn grouping(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the commands for the selected rows.
+/// Draws the buttons that change the grouping of the selected rows.
 fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     if import.states() < 2 {
         return;
@@ -157,7 +158,7 @@ fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the list of drafts.
+/// Draws the list of drafts of earlier imports.
 fn drafts(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     if state.drafts.is_empty() {
         return;

@@ -1,4 +1,4 @@
-//! The menu bar, built from the table of commands.
+//! The menu bar, made from the table of commands.
 
 use super::fields::button;
 use crate::app::command::Command;
@@ -7,7 +7,7 @@ use crate::app::state::State;
 use crate::texts::Text;
 use egui::{MenuBar, Rect, Ui};
 
-/// Draws one entry with its keys and tooltip.
+/// Draws one menu entry with keyboard shortcut and tooltip.
 fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
     if ui.add(button(offer)).on_hover_text(offer.tip).clicked() {
         commands.push(offer.command.clone());
@@ -15,7 +15,7 @@ fn entry(ui: &mut Ui, offer: &Offer, commands: &mut Vec<Command>) {
     }
 }
 
-/// Returns the entries of a menu, in order.
+/// Returns the entries of a menu in their order, each with its position.
 fn entries(menu: Text) -> Vec<(Place, &'static Offer)> {
     let placed = offers().iter().filter_map(|offer| Some((offer.place?, offer)));
     let mut list: Vec<_> = placed.filter(|(place, _)| place.menu == menu).collect();
@@ -23,7 +23,7 @@ fn entries(menu: Text) -> Vec<(Place, &'static Offer)> {
     list
 }
 
-/// Draws one menu; entries of one rank that belong within another menu are gathered there.
+/// Draws one menu with its submenus.
 fn show_menu(ui: &mut Ui, menu: Text, commands: &mut Vec<Command>) {
     let list = entries(menu);
     let mut section = 0;
@@ -41,7 +41,7 @@ fn show_menu(ui: &mut Ui, menu: Text, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the bar. Returns the place of each menu's word.
+/// Draws the menu bar. Returns the rectangle of each menu's title on the screen.
 pub fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) -> Vec<(Text, Rect)> {
     let bar = MenuBar::new().ui(ui, |ui| {
         let menus = MENUS.map(|menu| (menu, ui.menu_button(menu, |ui| show_menu(ui, menu, commands)).response.rect));

@@ -1,4 +1,4 @@
-//! Messages of the window: beside the status line as long as it takes to read them, and in a list for later.
+//! Messages of the window: above the status line for the time it takes to read them, and in a list for later.
 
 use crate::app::command::Command;
 use crate::app::messages::{Message, Messages, Weight};
@@ -7,7 +7,7 @@ use crate::texts::shell;
 use egui::{Align2, Area, Color32, Id, Label, Order, Pos2, RichText, Sense, Ui};
 use std::time::Duration;
 
-/// Maximum number of messages shown at the same time; the others are in the list.
+/// Maximum number of messages shown at the same time; older ones are found in the list.
 const MOST: usize = 4;
 /// Maximum width of a message's text. \[points\]
 const WIDTH: f32 = 420.0;
@@ -21,7 +21,7 @@ const fn colour(palette: &Palette, weight: Weight) -> Color32 {
     }
 }
 
-/// Draws the current messages, upwards from a corner: `corner` is the lower right one of the available space.
+/// Draws the current messages one above another. `corner`: lower right corner of the available space.
 pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mut Vec<Command>) {
     if messages.shown().next().is_none() {
         return;
@@ -59,7 +59,7 @@ pub(super) fn show(ui: &Ui, messages: &mut Messages, corner: Pos2, commands: &mu
     ui.ctx().request_repaint_after(Duration::from_millis(250));
 }
 
-/// Draws the button that copies the report of a message, if it has one.
+/// Draws the button that copies the error report of a message, if it has one.
 fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
     if let Some(report) = &message.report
         && ui.button(shell::COPY_REPORT).on_hover_text(shell::COPY_REPORT_TIP).clicked()
@@ -68,7 +68,7 @@ fn copy_report(ui: &mut Ui, message: &Message, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the list of all messages, newest at the top.
+/// Draws the list of all messages, the newest at the top.
 pub(super) fn list(ui: &mut Ui, messages: &Messages, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     if messages.is_empty() {

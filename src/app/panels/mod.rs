@@ -1,4 +1,5 @@
-//! Drawing of everything around the tiles. Each panel reads the window and returns commands.
+//! Panels round the tiles: catalogue, scene, menus, status line, side panels. Each reads the state of the window and
+//! returns commands.
 
 pub mod bench;
 mod catalogue;
@@ -22,18 +23,18 @@ use super::state::Sheet;
 use super::theme;
 use super::window::App;
 
-/// Width of a window below which there is no room for catalogue, tile area and sheet. \[points\]
+/// Width of a window below which there is no room for catalogue, tile area and side panel together. \[points\]
 const TIGHT: f32 = 1150.0;
 /// Minimum width that a side panel leaves to the tile area. \[points\]
 const LEAST_BENCH: f32 = 360.0;
 
-/// Returns the range of widths of a side panel: any width that leaves the tile area its minimum. Kept from one start to
-/// the next.
+/// Returns the range of widths to which a side panel can be resized \[points\]: from `least` to the width that leaves
+/// the tile area its minimum.
 fn widths(ui: &egui::Ui, least: f32) -> std::ops::RangeInclusive<f32> {
     least..=(ui.available_width() - LEAST_BENCH).max(least)
 }
 
-/// Draws the whole window.
+/// Draws the whole window. Returns the commands that the user gave in this frame.
 pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let mut commands = Vec::new();
     let bar = theme::bar_frame(ui);

@@ -1,4 +1,4 @@
-//! The command palette: words narrow the list, arrow keys walk it, Enter takes a row.
+//! The command palette: typed words narrow the list, arrow keys choose a row, Enter executes it.
 
 use crate::app::command::Command;
 use crate::app::palette::{Row, rows};
@@ -6,10 +6,10 @@ use crate::app::window::App;
 use crate::texts::shell;
 use egui::{Align2, Area, Button, Id, Key, Modifiers, Order, Ui};
 
-/// Width of the palette. \[points\]
+/// Width of the command palette. \[points\]
 const WIDTH: f32 = 420.0;
 
-/// Draws the palette when it is open.
+/// Draws the command palette if it is open.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let Some(words) = &app.state.palette else { return };
     let mut text = words.clone();
@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the field and the list of commands that match its text.
+/// Draws the text field and the list of rows (commands, states, products) that match its text.
 fn list(ui: &mut Ui, app: &App, text: &mut String, commands: &mut Vec<Command>) {
     ui.set_width(WIDTH);
     // Up and down belong to the list; the field would take them.

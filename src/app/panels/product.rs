@@ -1,4 +1,4 @@
-//! Sheets about products that are stored: their texts, and those that were deleted.
+//! Side panels about stored products: editing of their texts and states, and the list of deleted products.
 
 use crate::app::changes::Editing;
 use crate::app::clock;
@@ -9,8 +9,9 @@ use crate::app::theme;
 use crate::texts::catalogue as text;
 use egui::{TextEdit, Ui};
 
-/// Draws fields for the texts about a product. Returns the new texts when something was typed.
-/// `author`: whether the field of who measured or computed is shown too, which is not changed afterwards.
+/// Draws the fields for the texts about a product, such as name and manufacturer. Returns the new texts in a frame in
+/// which the user typed. `author`: whether to show also the field for the person or laboratory that measured or
+/// computed the data, which is fixed once the product is stored.
 pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<ImportFields> {
     let mut typed = fields.clone();
     egui::Grid::new("about").num_columns(2).show(ui, |ui| {
@@ -32,7 +33,7 @@ pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<
     (typed != *fields).then_some(typed)
 }
 
-/// Draws the sheet of a product.
+/// Draws the side panel in which a product is edited.
 pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(editing) = &state.editing else {
         ui.label(text::NONE_SELECTED);
@@ -69,7 +70,7 @@ pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     history(ui, editing);
 }
 
-/// Draws names and angles of a product's states, each with a file to take its place.
+/// Draws names and angles of a product's states, each with a button to replace its data by those of another file.
 fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     ui.add_space(8.0);
     ui.strong(text::STATES.get());
@@ -106,7 +107,7 @@ fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the files that a product was read from, to be read again.
+/// Draws the source files of a product, which can be read again.
 fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     if editing.looked.paths.is_empty() {
         return;
@@ -136,7 +137,7 @@ fn files(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the history of a product.
+/// Draws the history of the changes of a product.
 fn history(ui: &mut Ui, editing: &Editing) {
     ui.add_space(8.0);
     ui.strong(text::HISTORY.get());
@@ -149,7 +150,7 @@ fn history(ui: &mut Ui, editing: &Editing) {
     }
 }
 
-/// Draws the list of deleted products.
+/// Draws the list of deleted products, which can be restored.
 pub(super) fn deleted(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.add(egui::Label::new(text::DELETED_HELP).wrap());
     if state.deleted.is_empty() {

@@ -1,4 +1,5 @@
-//! The scene panel: sections that fold and then show a summary. Errors are shown where the value is typed.
+//! The scene panel: sections that can be folded and then show a summary. Errors are shown at the field of the invalid
+//! value.
 
 mod apertures;
 mod outside;
@@ -23,7 +24,7 @@ use crate::texts::{Text, fixed, scene as texts, year as year_texts};
 use egui::{CollapsingHeader, DragValue, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
 use std::path::Path;
 
-/// Draws the panel.
+/// Draws the scene panel.
 pub fn show(
     ui: &mut Ui,
     state: &State,
@@ -42,7 +43,8 @@ pub fn show(
     }
 }
 
-/// Draws the sections in the order in which a study is planned: place, time, sky, obstructions, then the room.
+/// Draws the sections in the order in which a study is planned: site, façade, date and time, sky, weather, ground,
+/// obstructions, apertures, room, sensors.
 fn sections(
     ui: &mut Ui,
     state: &State,
@@ -106,7 +108,7 @@ fn sections(
     section(ui, texts::SENSORS, &plane, wrong(texts::SENSORS).or(above), false, |ui| sensors(ui, scene));
 }
 
-/// Returns the section in which a key of the scene file is edited.
+/// Returns the title of the section in which a key of the scene file is edited.
 fn section_of(key: &str, perez: bool) -> Text {
     match key {
         "site.azimuth" => texts::FACADE,
@@ -122,7 +124,8 @@ fn section_of(key: &str, perez: bool) -> Text {
     }
 }
 
-/// Draws a section that folds; folded it shows its summary. Its error is shown in either case.
+/// Draws a section with a title that folds it; when folded it shows the summary `essence`. The error `wrong` is always
+/// shown.
 fn section(ui: &mut Ui, title: Text, essence: &str, wrong: Option<String>, open: bool, body: impl FnOnce(&mut Ui)) {
     let header = CollapsingHeader::new(RichText::new(title.get()).strong())
         .id_salt(title.english())
@@ -151,7 +154,7 @@ fn facade(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     });
 }
 
-/// Draws a compass to drag; the needle is the façade's outward normal, the dot the sun.
+/// Draws a compass whose needle, the outward normal of the façade, can be dragged; a dot shows the azimuth of the sun.
 fn dial(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     let palette = theme::palette(ui);
     let (rect, response) = ui.allocate_exact_size(Vec2::splat(76.0), Sense::click_and_drag());
@@ -195,6 +198,8 @@ fn room_ui(ui: &mut Ui, scene: &mut SceneFile) {
     ui.checkbox(&mut scene.compute.interreflection, texts::INTERREFLECTION);
 }
 
+/// Draws the fields of the sensor grid: its height above the floor, and the numbers of sensors across the width and the
+/// depth of the room.
 fn sensors(ui: &mut Ui, scene: &mut SceneFile) {
     let height = scene.room.height;
     let Some(plane) = &mut scene.sensors.plane else {

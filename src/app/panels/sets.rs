@@ -1,4 +1,4 @@
-//! Sheets about sets of products: collections that the user makes, and folders of packages that are subscribed to.
+//! Side panels about sets of products: collections made by the user, and subscribed folders of packages.
 
 use crate::app::catalogue_command::CatalogueCommand;
 use crate::app::command::Command;
@@ -9,7 +9,8 @@ use crate::texts::{Text, catalogue as text};
 use egui::accesskit::Role;
 use egui::{Key, Label, TextEdit, Ui, WidgetInfo};
 
-/// Draws a button about something that has a name. Returns whether it was clicked.
+/// Draws a button for something with a name, which completes the button's label for screen readers. Returns whether it
+/// was clicked.
 fn button(ui: &mut Ui, what: Text, tip: Text, name: &str) -> bool {
     let button = ui.button(what).on_hover_text(tip);
     let label = text::about(what, name);
@@ -17,7 +18,7 @@ fn button(ui: &mut Ui, what: Text, tip: Text, name: &str) -> bool {
     button.clicked()
 }
 
-/// Draws the sheet of collections.
+/// Draws the side panel of collections.
 pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let all = &state.sets.collections;
     let product = &state.document.selection.product;
@@ -62,7 +63,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     }
 }
 
-/// Draws the sheet of folders.
+/// Draws the side panel of subscribed folders.
 pub(super) fn subscriptions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     ui.add(Label::new(egui::RichText::new(text::SUBSCRIBE_TIP).weak()).wrap());
     if ui.button(text::SUBSCRIBE_MENU).on_hover_text(text::SUBSCRIBE_HINT).clicked() {

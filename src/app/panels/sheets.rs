@@ -1,4 +1,5 @@
-//! Sheets at the side: imports, findings, keys, paths. None of them blocks the rest of the window.
+//! Side panels, of which at most one is open: imports, findings, shortcuts, paths. None of them blocks the rest of the
+//! window.
 
 use super::fields::take_keyboard;
 use super::{import, messages, product, sets};
@@ -13,7 +14,7 @@ use crate::app::window::App;
 use crate::texts::{catalogue as texts, shell};
 use egui::{Id, Key, RichText, ScrollArea, TextEdit, Ui};
 
-/// Draws the sheet that is open.
+/// Draws the open side panel.
 pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command>) {
     let title = match sheet {
         Sheet::Import => shell::IMPORT,
@@ -72,6 +73,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
     });
 }
 
+/// Draws the plot of error against computing time, and passes its commands on.
 fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let running = app.jobs.views().iter().find(|job| job.lane == Lane::Accuracy).map(|job| job.state.clone());
     let shown = &app.results.accuracy;
@@ -102,6 +104,7 @@ fn keys(ui: &mut Ui) {
     });
 }
 
+/// Draws the field for a path to open or write, and the question whether to replace an existing file.
 fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) {
     let (hint, action) = match what {
         PathUse::Open => (shell::OPEN_HINT, shell::OPEN),

@@ -1,4 +1,4 @@
-//! The status line: running jobs, uncertainty of the results shown, findings on the dataset.
+//! The status line: running jobs, statistical error of the results shown, findings on the dataset.
 
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
@@ -10,23 +10,24 @@ use crate::compute::btdf::Severity;
 use crate::texts::{Text, fixed, shell, stages};
 use egui::{Color32, FontId, ProgressBar, RichText, Ui};
 
-/// Returns a duration \[s\] as text.
+/// Returns a duration, given in seconds, as text in ms or s.
 fn duration(seconds: f64) -> String {
     if seconds < 1.0 { format!("{} ms", fixed(1000.0 * seconds, 1)) } else { format!("{} s", fixed(seconds, 1)) }
 }
 
-/// Returns an error \[%\] as text; below 0.005 as "< 0.01 %", since two decimals cannot show it.
+/// Returns a relative error \[%\] as text; below 0.005 % as "< 0.01 %", since two decimals cannot show it.
 fn percent(error: f64) -> String {
     if error < 0.005 { format!("< {} %", fixed(0.01, 2)) } else { format!("±{} %", fixed(error, 2)) }
 }
 
-/// A result as text, from the fullest to the shortest wording, with its tooltip.
+/// Text about the error of a result, in a longer and a shorter wording, with tooltip.
 struct Figure {
     words: [String; 2],
     tip: Text,
 }
 
-/// Returns the note on a result that is outdated; empty for a current one.
+/// Returns the note on an outdated result, which says whether a newer one is being computed in its lane; empty for a
+/// current result.
 fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'static str {
     match (shown.stale, app.jobs.busy(lane)) {
         (false, _) => "",
@@ -35,7 +36,7 @@ fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'stati
     }
 }
 
-/// Returns the uncertainties of room and LID, as far as visible tiles show them.
+/// Returns texts on the errors of the room's illuminances and of the LID, if a visible tile shows these results.
 fn figures(app: &App) -> Vec<Figure> {
     let mut list = Vec::new();
     let is_visible = |lane| app.bench.shows(lane, app.state.maximised);
@@ -62,8 +63,8 @@ fn figures(app: &App) -> Vec<Figure> {
     list
 }
 
-/// Returns the summary of the findings on the dataset that is shown, made on import: checking it again takes too long
-/// for every frame.
+/// Returns a summary of the data check of the dataset shown, its colour, and whether there are findings. The check is
+/// that of the import, since it takes too long to be repeated in every frame.
 fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     // While data of another product or state are still to come, those that are shown are the last ones'.
     let awaited = app.state.computing.is_some() || app.state.dataset.error.is_some();
@@ -88,19 +89,20 @@ fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     }
 }
 
-/// Returns the width of a text in the line. \[points\]
+/// Returns the width of a text in the status line. \[points\]
 fn width(ui: &Ui, text: &str) -> f32 {
     let font = egui::TextStyle::Body.resolve(ui.style());
     ui.painter().layout_no_wrap(text.to_owned(), FontId { size: font.size, ..font }, Color32::PLACEHOLDER).size().x
 }
 
-/// Width of a separator. \[points\]
+/// Width of a separator in the status line. \[points\]
 const GAP: f32 = 20.0;
-/// Width of a progress bar, and of the button that stops a job. \[points\]
+/// Common width of a job's progress bar and its stop button. \[points\]
 const BAR: f32 = 78.0;
 const STOP: f32 = 30.0;
 
-/// Draws the line: as much as fits, the figures before the jobs, and the number of further jobs.
+/// Draws the status line as far as its parts fit: first the texts on errors, then the jobs, then the number of further
+/// jobs.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -128,6 +130,8 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
+/// Draws the texts on errors of results and the running jobs, each job with progress and stop button, in the remaining
+/// width.
 fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let mut left = ui.available_width() - GAP;
     let figures = figures(app);

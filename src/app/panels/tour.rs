@@ -1,4 +1,5 @@
-//! The tour: a line under the menus with the next step, and a ring round its place. It never covers anything.
+//! The tour, an introduction to the window: a line under the menus with the current step, and a frame round the part of
+//! the window that the step uses. It covers nothing.
 
 use crate::app::command::Command;
 use crate::app::state::{State, Tile};
@@ -10,21 +11,21 @@ use crate::texts::commands::{COMPARE, FILE};
 use crate::texts::{Text, shell};
 use egui::{Id, Key, LayerId, Order, Rect, Stroke, StrokeKind, Ui};
 
-/// Places of the parts of the window in this frame.
+/// Rectangles of parts of the window in this frame, which the tour marks.
 #[derive(Default)]
 pub struct Places {
-    /// Place of the catalogue.
+    /// Rectangle of the catalogue panel, if it is open.
     pub catalogue: Option<Rect>,
-    /// Places of the menus' words in the bar.
+    /// Title and rectangle of each menu in the menu bar.
     pub menus: Vec<(Text, Rect)>,
 }
 
-/// Whether there is anything to show.
+/// Whether the tour or the offer of the tour is shown.
 pub const fn speaks(state: &State) -> bool {
     state.tour.is_some() || state.tour_offered
 }
 
-/// Draws the line.
+/// Draws the line of the tour, or of its offer.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let Some(tour) = &app.state.tour else {
         ui.horizontal_wrapped(|ui| {
@@ -56,12 +57,12 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Returns the place of a tile, if it is visible.
+/// Returns the rectangle of a tile; `None` if it is not visible.
 fn place_of(app: &App, tile: Tile) -> Option<Rect> {
     app.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
 }
 
-/// Draws the ring over everything that was drawn.
+/// Draws the frame round the part of the window that the current step uses, in front of everything else.
 pub fn ring(ui: &Ui, app: &App, places: &Places) {
     let Some(tour) = &app.state.tour else { return };
     let menu = |menu: Text| places.menus.iter().find(|(one, _)| *one == menu).map(|(_, rect)| *rect);

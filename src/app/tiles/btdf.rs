@@ -1,4 +1,4 @@
-//! The BTDF tile: one incident direction of the selected dataset, the sun's or a chosen one.
+//! The BTDF tile: scattering data of the selected dataset for one incident direction, that of the sun or a chosen one.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -17,7 +17,7 @@ use egui::Ui;
 /// The BTDF tile.
 pub const TILE: Tile = Tile { title: "BTDF", name: say::BTDF, help: say::BTDF_HELP };
 
-/// Drawing of the BTDF tile.
+/// Drawing of the BTDF tile, with its state between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: btdf::State,

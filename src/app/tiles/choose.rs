@@ -22,22 +22,23 @@ pub const TILE: Tile = Tile { title: "Choose", name: say::CHOOSE, help: say::CHO
 
 type Ordered = Result<Arc<Shortlist>, String>;
 
-/// Key of a reason: the figures, the objectives, the two products compared, and the language.
+/// Key of the explanation of a difference between two products: revision number of the results, objectives, the two
+/// products, and the language.
 type ReasonKey = (u64, Vec<ObjectiveKeys>, [Option<String>; 2], Language);
 
-/// Drawing of the ranking tile.
+/// Drawing of the ranking tile, with its caches between frames.
 #[derive(Default)]
 pub struct Drawing {
     list: Cache<(u64, Vec<ObjectiveKeys>, String), Ordered>,
     reason: Cache<ReasonKey, Option<Reason>>,
 }
 
-/// Returns the name of the scene as tables have it.
+/// Returns the name of the scene in tables: the path of its file, or empty.
 pub fn scene_name(state: &State) -> String {
     state.scene_path.as_ref().map(|path| path.display().to_string()).unwrap_or_default()
 }
 
-/// Returns the reason to compute something.
+/// Returns the reason why the ranking has to be computed (again), if there is one.
 fn due(figures: &Figures, stale: bool, objectives: &[ObjectiveKeys]) -> view::Due {
     let unknown = objectives.iter().any(|one| !figures.knows(&one.figure));
     match (stale, figures.unfinished()) {
@@ -48,7 +49,7 @@ fn due(figures: &Figures, stale: bool, objectives: &[ObjectiveKeys]) -> view::Du
     }
 }
 
-/// Returns the figures that may become objectives and are not objectives yet.
+/// Returns the figures that can be added as objectives, without those that are objectives already.
 fn offers(state: &State, figures: Option<&Figures>, objectives: &[ObjectiveKeys]) -> Vec<view::Offer> {
     let scene = &state.document.scene;
     let list = offered(scene.year.as_ref().unwrap_or(&usual_year(scene)));

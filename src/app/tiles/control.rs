@@ -1,4 +1,4 @@
-//! The control tile: the picture, and under it the control mode with its settings.
+//! The control tile: the control diagram, and under it the control mode with its settings.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -19,10 +19,11 @@ use std::path::PathBuf;
 /// The control tile.
 pub const TILE: Tile = Tile { title: "Control", name: say::CONTROL, help: say::CONTROL_HELP };
 
-/// Height of the strip of control modes. \[points\]
+/// Height of the line of control modes under the tile. \[points\]
 const RULES_HEIGHT: f32 = 26.0;
 
-/// Returns today's sun against the façade, and the state that the control chooses for each half hour of it.
+/// Returns, for each half hour of the scene's day, the profile angle of the sun relative to the façade and the state
+/// that the control rule chooses; empty without a product.
 fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
     let Some(product) = state.product.as_ref() else { return Vec::new() };
     // A rule that cannot be followed is reported where the state is picked; here its trace is missing.
@@ -37,7 +38,7 @@ fn trace(state: &State, key: &rules::YearKey) -> Vec<control::TracePoint> {
         .collect()
 }
 
-/// Returns the reason why nothing moves: the product has one state, or is not there yet.
+/// Returns the reason why there is nothing to control: the product has a single state, or is not loaded yet.
 fn still(product: Option<&crate::catalogue::Product>) -> Text {
     let Some(product) = product else { return say::PRODUCT_COMING };
     match product.kind.as_str() {
@@ -52,7 +53,7 @@ fn still(product: Option<&crate::catalogue::Product>) -> Text {
     }
 }
 
-/// Draws a small number with unit that is 0 where the scene does not specify it.
+/// Draws an input field for a number from 0 to `most` with its unit; 0 if the scene does not specify it.
 fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f64>, most: f64) {
     let mut number = value.unwrap_or(0.0);
     let drag = DragValue::new(&mut number).range(0.0..=most).speed(most / 400.0).max_decimals(1).suffix(unit);
@@ -63,7 +64,7 @@ fn setting(ui: &mut Ui, name: Text, tip: Text, unit: &str, value: &mut Option<f6
     }
 }
 
-/// Draws the control mode by which the state is picked, under the tile.
+/// Draws the choice of the control mode, i.e. of how the state is chosen, under the tile.
 fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let mode = state.control_mode();
     ui.horizontal_centered(|ui| {
@@ -107,7 +108,7 @@ fn rules_strip(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     });
 }
 
-/// Draws the settings of the control mode: side by side while there is room, else in a menu.
+/// Draws the settings of the control mode, side by side if there is room, otherwise in a menu.
 fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     let fields = |ui: &mut Ui, keys: &mut ControlKeys| {
         if keys.mode == ControlMode::Redirect {
@@ -151,16 +152,16 @@ fn details(ui: &mut Ui, keys: &mut ControlKeys, commands: &mut Vec<Command>) {
     }
 }
 
-/// Key of a control curve: product, control settings, and the scene's base folder.
+/// Key of a cached control curve: product, control rule, and base folder of the scene.
 type CurveKey = (Option<String>, ControlKeys, PathBuf);
 
-/// Drawing of the control tile.
+/// Drawing of the control tile, with its caches between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: control::State,
     today: Cache<Option<(rules::YearKey, i16)>, Vec<control::TracePoint>>,
     curve: Cache<CurveKey, Vec<[f64; 2]>>,
-    /// Cache: whether the slats of a description are vertical.
+    /// Cache, by the text of a system file, of whether its slats are vertical.
     upright: Cache<String, bool>,
 }
 

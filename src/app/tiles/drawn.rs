@@ -1,4 +1,4 @@
-//! Interface of a tile to the tile area: a tile is drawn from what the window knows, and returns commands.
+//! Interface of a tile to the tile area: a tile is drawn from state and results of the window, and returns commands.
 
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
@@ -8,40 +8,42 @@ use crate::app::title;
 use crate::texts::tiles as say;
 use egui::Ui;
 
-/// Input of a tile.
+/// Input of a tile in one frame.
 pub struct TileInput<'a> {
     /// State of the window.
     pub state: &'a State,
-    /// Results of the computations.
+    /// Results of the computations of the window.
     pub results: &'a Results,
-    /// Function that returns whether something is being computed in a lane.
+    /// Function that returns whether a job is running in a lane.
     pub busy: &'a dyn Fn(Lane) -> bool,
-    /// Function that returns the share done of what is being computed in a lane; `None` before it is known.
+    /// Function that returns the progress of the job in a lane, 0 … 1; `None` before it is known.
     pub done: &'a dyn Fn(Lane) -> Option<f32>,
-    /// Whether something is being dragged: scales stay as they are.
+    /// Whether the user is dragging something, during which colour scales and axes must not change.
     pub held: bool,
-    /// Whether the tile's numbers are requested.
+    /// Whether the numbers of the tile are requested as a table (CSV).
     pub numbers: bool,
-    /// Lowest and highest value of the tile's scale where it is shared with others, in the tile's unit.
+    /// Lowest and highest value of the tile's scale, in the tile's unit, if the comparison sets a common scale;
+    /// otherwise `None`.
     pub scale: Option<[f64; 2]>,
 }
 
 impl<'a> TileInput<'a> {
-    /// Returns the status of a picture that is made as it is drawn.
+    /// Returns the status of a picture that is computed while it is drawn, without a job.
     pub fn status(&self, stale: bool, error: Option<&'a str>) -> Status<'a> {
         let doing = self.state.computing.as_deref();
         Status { coarse: false, stale, idle: false, hold_scale: self.held, doing, error }
     }
 
-    /// Returns the status of a result that a lane computes: an error counts when nothing newer is being computed.
+    /// Returns the status of a result that is computed in a lane; its error is part of the status unless an older
+    /// result is shown and a newer one is being computed.
     pub fn status_of<T>(&self, shown: &'a Shown<T>, lane: Lane) -> Status<'a> {
         let busy = (self.busy)(lane);
         let error = shown.error.as_deref().filter(|_| shown.value.is_none() || !busy);
         Status { idle: !busy && self.state.computing.is_none(), ..self.status(shown.stale, error) }
     }
 
-    /// Returns what the window waits for before a tile has anything to draw, and whether that is an error; `None` once
-    /// the product is there.
+    /// Returns the text shown before a tile has anything to draw, and whether it is an error; `None` once the product
+    /// is loaded.
     pub fn awaited(&self) -> Option<(String, bool)> {
         let state = self.state;
         match &state.catalogue {
@@ -61,7 +63,7 @@ impl<'a> TileInput<'a> {
         }
     }
 
-    /// Returns the system that lights the room and the moment, as text.
+    /// Returns the system in the apertures, and date and time of the scene, as text.
     pub fn caption(&self) -> String {
         format!("{} · {}", title::in_room(self.state), title::time(&self.state.document.scene))
     }
@@ -69,16 +71,17 @@ impl<'a> TileInput<'a> {
 
 /// Drawing of a tile, with its state between frames.
 pub trait Drawn {
-    /// Returns the lanes whose results it draws, beside that of the scene: they run only while the tile is visible.
+    /// Returns the lanes whose results the tile draws, in addition to the lane of the scene; their jobs run only while
+    /// the tile is visible.
     fn lanes(&self) -> &'static [Lane] {
         &[]
     }
-    /// Returns the tile's choice of a logarithmic scale; `None` if it has none.
+    /// Returns whether the tile's scale is logarithmic, to be changed; `None` if the tile has no such choice.
     fn log(&mut self) -> Option<&mut bool> {
         None
     }
-    /// Whether there is anything that the tile could draw. Until then the tile area shows what it waits for.
+    /// Whether the tile has a result or data to draw. Until then the tile area shows what is awaited.
     fn ready(&self, seen: &TileInput<'_>) -> bool;
-    /// Draws the tile over the available space. Returns its numbers as CSV if they are requested.
+    /// Draws the tile over the available space. Returns its numbers as CSV if `seen` requests them.
     fn show(&mut self, ui: &mut Ui, seen: &TileInput<'_>, commands: &mut Vec<Command>) -> Option<String>;
 }

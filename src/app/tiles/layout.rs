@@ -1,41 +1,42 @@
-//! The arrangement of tiles as a value: read, written, rearranged; and the tree that draws it.
+//! The arrangement of tiles as a value that is read, written and rearranged, and its conversion to and from the tree
+//! that egui_tiles draws.
 
 use crate::app::state::Tile;
 use crate::texts::tiles as say;
 use egui_tiles::{Container, Linear, LinearDir, Tabs, TileId, Tiles, Tree};
 use serde::{Deserialize, Serialize};
 
-/// Version of the form in which layouts are stored. A newer one is not read.
+/// Version of the file format of stored layouts. Other versions are not read.
 const VERSION: u32 = 1;
-/// Factor on the share of a row or column when a tile gets one step wider or higher.
+/// Factor on a tile's share of a row or column when it becomes one step wider or higher.
 const STEP: f32 = 1.2;
 
-/// A tile, or tiles with their places. `T`: a tile, or its title in a file.
+/// Node of a layout: a tile, or an arrangement of nodes. `T`: the tile, or its title in a file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Place<T> {
     /// One tile.
     Tile(T),
-    /// Tabs: one of several places is in front of the others.
+    /// Tabs: several nodes, of which one is in front of the others.
     Tabs {
         /// Index of the tab in front.
         front: usize,
         /// All tabs.
         tabs: Vec<Place<T>>,
     },
-    /// Row from left to right, with shares of the width.
+    /// Row of nodes from left to right, with their shares of the width.
     Row(Vec<(f32, Place<T>)>),
-    /// Column from top to bottom, with shares of the height.
+    /// Column of nodes from top to bottom, with their shares of the height.
     Column(Vec<(f32, Place<T>)>),
 }
 
-/// Places with their shares of a length.
+/// Nodes with their shares of a width or height.
 type Shares<T> = Vec<(f32, Place<T>)>;
 
 /// Arrangement of the tile area.
 pub type Layout = Place<Tile>;
 
-/// Layout as it is stored.
+/// Layout as it is stored in a file.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     version: u32,
@@ -43,8 +44,8 @@ struct Kept {
 }
 
 impl<T> Place<T> {
-    /// Returns the place with each tile replaced; tiles that become nothing are removed, and so is what then holds
-    /// nothing or one tile.
+    /// Returns the node with each tile replaced by the result of `of`; tiles for which it is `None` are removed, and
+    /// rows, columns and tabs that then hold fewer than two nodes are dissolved.
     fn filter_map<U>(self, of: &mut impl FnMut(T) -> Option<U>) -> Option<Place<U>> {
         let mut list = |children: Vec<(f32, Self)>| -> Vec<(f32, Place<U>)> {
             children.into_iter().filter_map(|(share, child)| Some((share, child.filter_map(of)?))).collect()
@@ -71,7 +72,7 @@ impl<T> Place<T> {
         }
     }
 
-    /// Whether all shares are numbers by which a length can be divided.
+    /// Whether all shares lie within 0.001 … 1000.
     fn sound(&self) -> bool {
         match self {
             Self::Tile(_) => true,
@@ -92,19 +93,19 @@ impl<T> Place<T> {
 }
 
 impl Layout {
-    /// Returns two rows of equal tiles.
+    /// Returns a layout of two rows with tiles of equal size.
     pub fn even(tiles: &[Tile]) -> Self {
         let columns = tiles.len().div_ceil(2).max(1);
         let row = |tiles: &[Tile]| (1.0, Self::Row(tiles.iter().map(|tile| (1.0, Self::Tile(*tile))).collect()));
         Self::Column(tiles.chunks(columns).map(row).collect())
     }
 
-    /// Returns tabs, the first in front.
+    /// Returns a layout of tabs, with the first tile in front.
     pub fn tabs(tiles: &[Tile]) -> Self {
         Self::Tabs { front: 0, tabs: tiles.iter().copied().map(Self::Tile).collect() }
     }
 
-    /// Returns the layout as the text that is stored.
+    /// Returns the layout as text to be stored.
     pub fn text(&self) -> String {
         let title = |tile: Tile| Some(tile.title.to_owned());
         let tree = self.clone().filter_map(&mut { title });
@@ -112,8 +113,8 @@ impl Layout {
         tree.and_then(|tree| serde_json::to_string(&Kept { version: VERSION, tree }).ok()).unwrap_or_default()
     }
 
-    /// Reads a stored layout. Tiles that are not known, or there twice, are removed; tiles that are missing become
-    /// tabs.
+    /// Reads a stored layout. Tiles that are not in `known`, or occur twice, are removed; known tiles that are missing
+    /// become tabs of the last tile.
     ///
     /// # Errors
     /// Returns an error, in one clause, if the text is not a layout of this version, has an invalid share, or has no
@@ -135,12 +136,12 @@ impl Layout {
         Ok(if left.is_empty() { layout } else { layout.with(&left) })
     }
 
-    /// Returns the layout with `tiles`, which are not there yet, as tabs behind `front`.
+    /// Returns the layout with `tiles`, which it must not contain yet, added as tabs behind the tile `front`.
     pub fn behind(self, front: Tile, tiles: &[Tile]) -> Self {
         self.replaced(front, &mut |own| Self::tabs(&[&[own], tiles].concat()))
     }
 
-    /// Returns the layout with more tiles, as tabs of the last one.
+    /// Returns the layout with more tiles, added as tabs of its last tile.
     fn with(self, more: &[Tile]) -> Self {
         let last = self.tiles().last().copied();
         match last {
@@ -152,7 +153,7 @@ impl Layout {
         }
     }
 
-    /// Returns all tiles, in order.
+    /// Returns all tiles of the layout, in order.
     pub fn tiles(&self) -> Vec<Tile> {
         match self {
             Self::Tile(tile) => vec![*tile],
@@ -161,7 +162,7 @@ impl Layout {
         }
     }
 
-    /// Returns the visible tiles, in order.
+    /// Returns the visible tiles of the layout, i.e. those not behind another tab, in order.
     pub fn visible_tiles(&self) -> Vec<Tile> {
         match self {
             Self::Tile(tile) => vec![*tile],
@@ -170,6 +171,7 @@ impl Layout {
         }
     }
 
+    /// Returns the layout with one tile replaced by the layout that `with` returns for it.
     fn replaced(self, wanted: Tile, with: &mut impl FnMut(Tile) -> Self) -> Self {
         let mut list = |children: Vec<(f32, Self)>| {
             children.into_iter().map(|(share, child)| (share, child.replaced(wanted, with))).collect()
@@ -189,7 +191,7 @@ impl Layout {
         self.filter_map(&mut |own| (own != tile).then_some(own))
     }
 
-    /// Returns the layout with two tiles in exchanged places.
+    /// Returns the layout with two tiles exchanged.
     pub fn swapped(self, a: Tile, b: Tile) -> Self {
         let other = |own: Tile| {
             Some(if own == a {
@@ -203,7 +205,7 @@ impl Layout {
         self.clone().filter_map(&mut { other }).unwrap_or(self)
     }
 
-    /// Returns the layout with a tile as a tab of another, in front.
+    /// Returns the layout with a tile moved to the tabs of another tile `to`, in front of it.
     pub fn joined(self, tile: Tile, to: Tile) -> Self {
         if tile == to {
             return self;
@@ -215,7 +217,7 @@ impl Layout {
         rest
     }
 
-    /// Inserts a tile into the tabs that hold `to`. Returns whether there are such tabs.
+    /// Inserts a tile into the tabs that contain the tile `to`. Returns whether there are such tabs.
     fn join(&mut self, tile: Tile, to: Tile) -> bool {
         if let Self::Tabs { front, tabs } = self
             && let Some(number) = tabs.iter().position(|tab| *tab == Self::Tile(to))
@@ -227,7 +229,7 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.join(tile, to))
     }
 
-    /// Returns the layout with a tile moved from its tabs to the right of them; unchanged where it is not a tab.
+    /// Returns the layout with a tile moved out of its tabs to their right; unchanged if it is not a tab.
     pub fn split(mut self, tile: Tile) -> Self {
         self.split_off(tile);
         self
@@ -245,7 +247,7 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.split_off(tile))
     }
 
-    /// Brings a tile in front of the others of its tabs. Returns `true` if it was hidden.
+    /// Brings a tile to the front of its tabs. Returns `true` if it was hidden before.
     pub fn reveal(&mut self, tile: Tile) -> bool {
         if let Self::Tabs { front, tabs } = self
             && let Some(number) = tabs.iter().position(|tab| tab.tiles().contains(&tile))
@@ -257,8 +259,8 @@ impl Layout {
         self.children_mut().into_iter().any(|child| child.reveal(tile))
     }
 
-    /// Brings the tab after (+1) or before (−1) the one in front to the front, among the tabs that hold a tile. Returns
-    /// its tile.
+    /// Brings the next (`step` +1) or previous (−1) tab to the front, in the tabs that contain a tile. Returns the tile
+    /// of that tab; `None` if there are no such tabs.
     pub fn next_tab(&mut self, tile: Tile, step: i32) -> Option<Tile> {
         if let Some(inner) = self.children_mut().into_iter().find_map(|child| child.next_tab(tile, step)) {
             return Some(inner);
@@ -272,7 +274,8 @@ impl Layout {
         }
     }
 
-    /// Gives a tile more (or less) of the nearest row (`wide`) or column that shares a length with it.
+    /// Makes a tile one step larger (`more`) or smaller within the innermost row (`wide`) or column that contains it.
+    /// Returns whether there is one.
     pub fn resize(&mut self, tile: Tile, wide: bool, more: bool) -> bool {
         if self.children_mut().into_iter().any(|child| child.resize(tile, wide, more)) {
             return true;
@@ -283,7 +286,7 @@ impl Layout {
         true
     }
 
-    /// Returns the layout as a tree to be drawn.
+    /// Returns the layout as a tree that egui_tiles can draw.
     pub fn tree(&self) -> Tree<Tile> {
         let mut tiles = Tiles::default();
         let root = self.plant(&mut tiles);
@@ -312,11 +315,12 @@ impl Layout {
         tiles.insert_container(line)
     }
 
-    /// Creates the layout from a tree that is drawn.
+    /// Creates the layout from a tree of egui_tiles; `None` if the tree is empty.
     pub fn of(tree: &Tree<Tile>) -> Option<Self> {
         Self::harvest(tree, tree.root()?)
     }
 
+    /// Returns the layout of a node of a tree of egui_tiles and everything below it.
     fn harvest(tree: &Tree<Tile>, id: TileId) -> Option<Self> {
         let children = |ids: &[TileId]| -> Vec<(TileId, Self)> {
             ids.iter().filter_map(|id| Some((*id, Self::harvest(tree, *id)?))).collect()

@@ -1,4 +1,4 @@
-//! The LID tile: the first aperture as a luminaire.
+//! The LID tile: luminous intensity distribution of the first aperture, regarded as a luminaire in the room.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -11,7 +11,7 @@ use egui::Ui;
 /// The LID tile.
 pub const TILE: Tile = Tile { title: "LID", name: say::LID, help: say::LID_HELP };
 
-/// Drawing of the LID tile.
+/// Drawing of the LID tile, with its state between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: lid::State,

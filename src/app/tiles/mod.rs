@@ -1,6 +1,6 @@
-//! The tiles of the tile area. Each is a file that feeds its view (in [`crate::app::views`]) from what the window knows
-//! and turns the view's actions into commands; a new one is such a file and its entry in [`TILES`]. Keys, menus,
-//! palette, layout and exports read that list.
+//! The tiles of the tile area. Each is a file that passes state and results of the window to its view (in
+//! [`crate::app::views`]) and converts the view's actions to commands; a new tile needs such a file and an entry in
+//! [`TILES`]. Shortcuts, menus, command palette, layout and exports use that list.
 
 mod btdf;
 mod choose;
@@ -43,7 +43,7 @@ const fn entry<D: Drawn + Default + 'static>(tile: Tile) -> Entry {
     Entry { tile, begin: || Box::<D>::default() }
 }
 
-/// All tiles, in the order of tile area and keys.
+/// All tiles, in the order of tile area and number keys.
 pub const TILES: &[Entry] = &[
     entry::<btdf::Drawing>(btdf::TILE),
     entry::<transmittance::Drawing>(transmittance::TILE),
@@ -55,34 +55,36 @@ pub const TILES: &[Entry] = &[
     entry::<choose::Drawing>(choose::TILE),
 ];
 
-/// Tiles of one window, and their arrangement.
+/// Tiles of one window or one candidate of the comparison, and their arrangement.
 pub struct Bench {
-    /// Arrangement as it is drawn.
+    /// Arrangement of the tiles as it is drawn by egui_tiles.
     pub tree: Tree<Tile>,
-    /// Text from which `tree` was made, or that `tree` was written to; `None`: the arrangement of a first start.
+    /// Stored text of the arrangement `tree`; `None` for the arrangement of a first start.
     pub text: Option<String>,
-    /// Places of the tiles in the last frame, in order.
+    /// Visible tiles and their rectangles in the last frame, in order.
     pub places: Vec<(Tile, Rect)>,
-    /// Active tile: pointed at, or reached by keys.
+    /// Active tile: the one last under the pointer or last reached by keys.
     pub in_hand: Tile,
-    /// Whether the active tile is to get the keyboard in the next frame.
+    /// Whether the active tile is to get the keyboard focus in the next frame.
     pub to_focus: bool,
-    /// Time that each visible tile took to be drawn in the last frame.
+    /// Time that drawing each visible tile took in the last frame.
     pub times: Vec<(Tile, Duration)>,
     drawn: Vec<(Tile, Box<dyn Drawn>)>,
 }
 
-/// Returns all tiles, in the order of tile area and keys.
+/// Returns all tiles, in the order of tile area and number keys.
 pub fn all() -> Vec<Tile> {
     TILES.iter().map(|entry| entry.tile).collect()
 }
 
-/// Returns the arrangement of a first start: six tiles side by side, with year and ranking as tabs behind the control.
+/// Returns the arrangement of a first start: six tiles in two rows, with the tiles of year and ranking as tabs behind
+/// the control tile.
 fn first() -> Layout {
     presets::layout(super::arrange::Preset::All, &all())
 }
 
-/// Returns the tiles that can be drawn for a comparison: a year is computed for the scene alone, and so is a ranking.
+/// Returns the tiles that can be drawn for the candidates of a comparison: all except those of year and ranking, which
+/// are computed for the scene alone.
 pub fn compared() -> impl Iterator<Item = Tile> + Clone {
     TILES.iter().map(|entry| entry.tile).filter(|tile| ![year::TILE, choose::TILE].contains(tile))
 }
@@ -107,10 +109,11 @@ impl Bench {
         Layout::of(&self.tree).unwrap_or_else(first)
     }
 
-    /// Arranges the tiles as a text describes, if it differs from that of the current arrangement.
+    /// Arranges the tiles by a stored text (`None`: as at a first start), if it differs from that of the current
+    /// arrangement.
     ///
     /// # Errors
-    /// Returns an error, in one clause, if the text cannot be read; the tiles then stand as at a first start.
+    /// Returns an error, in one clause, if the text cannot be read; the tiles are then arranged as at a first start.
     pub fn follow(&mut self, text: Option<&String>) -> Result<(), String> {
         if self.text.as_ref() == text {
             return Ok(());
@@ -121,18 +124,18 @@ impl Bench {
         read.map(drop)
     }
 
-    /// Returns the visible tiles: one that fills the tile area hides the others.
+    /// Returns the visible tiles. `maximised`: tile that fills the tile area and hides the others.
     pub fn visible_tiles(&self, maximised: Option<Tile>) -> Vec<Tile> {
         maximised.map_or_else(|| self.layout().visible_tiles(), |tile| vec![tile])
     }
 
-    /// Whether a visible tile draws what a lane computes.
+    /// Whether a visible tile draws results that are computed in a lane. `maximised`: as in [`Self::visible_tiles`].
     pub fn shows(&self, lane: Lane, maximised: Option<Tile>) -> bool {
         let visible = self.visible_tiles(maximised);
         self.drawn.iter().any(|(tile, drawn)| visible.contains(tile) && drawn.lanes().contains(&lane))
     }
 
-    /// Whether the content of a tile belongs to the scene before the last change.
+    /// Whether the content of a tile is outdated, i.e. belongs to an earlier scene or selection.
     pub fn is_old(&self, tile: Tile, state: &State, results: &Results) -> bool {
         let lanes = self.drawn.iter().find(|(one, _)| *one == tile).map_or(&[][..], |(_, drawn)| drawn.lanes());
         let old = |lane: &Lane| match lane {
@@ -148,12 +151,12 @@ impl Bench {
         state.dataset.stale || state.daylight.stale || lanes.iter().any(old)
     }
 
-    /// Returns a tile's choice of a logarithmic scale; `None` if it has none.
+    /// Returns whether the scale of a tile is logarithmic, to be changed; `None` if the tile has no such choice.
     pub fn log(&mut self, tile: Tile) -> Option<&mut bool> {
         self.drawn.iter_mut().find(|(one, _)| *one == tile)?.1.log()
     }
 
-    /// Draws a tile. Returns its numbers if they are requested.
+    /// Draws a tile over the available space. Returns its numbers as CSV if `seen` requests them.
     pub fn show(
         &mut self,
         ui: &mut Ui,

@@ -1,11 +1,11 @@
-//! Ready arrangements.
+//! Predefined arrangements of the tiles.
 
 use super::layout::Layout;
 use super::{btdf, choose, control, lid, room, sky, transmittance, year};
 use crate::app::arrange::Preset;
 use crate::app::state::Tile;
 
-/// Returns a ready arrangement of all tiles; `all`: every tile there is, in order.
+/// Returns a predefined arrangement of all tiles. `all`: all tiles, in their order.
 pub fn layout(preset: Preset, all: &[Tile]) -> Layout {
     let one = |share: f32, tile: Tile| (share, Layout::Tile(tile));
     match preset {

@@ -1,5 +1,5 @@
-//! The room tile: light at the sensor points and, where that is shown, on the surfaces; apertures and sensor points can
-//! be moved.
+//! The room tile: illuminances at the sensor points and, in the perspective, on the room's surfaces; apertures, sensor
+//! points and obstructions can be moved.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -20,24 +20,24 @@ use egui::Ui;
 /// The room tile.
 pub const TILE: Tile = Tile { title: "Room", name: say::ROOM, help: say::ROOM_HELP };
 
-/// Drawing of the room tile.
+/// Drawing of the room tile, with its caches between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: room::State,
     shown: RoomView,
-    /// Horizontal illuminance outside under the sky of a result, with the revision of that result. \[lx\]
+    /// Revision number of a result, and the horizontal illuminance outside under the unobstructed sky for it \[lx\].
     open_sky: Option<(u64, f64)>,
     cells: Cache<(u64, u64), Vec<room::CellValue>>,
     ground: Ground,
 }
 
-/// Cached ground outside with the sun's shade, for a scene and the revision of its daylight; computed again when one of
-/// them changes.
+/// Cache of the shadow on the ground outside, for a scene and the revision number of its daylight; computed again when
+/// one of them changes.
 #[derive(Default)]
 struct Ground(Option<(u64, SceneFile, Option<GroundShade>)>);
 
 impl Ground {
-    /// Returns the ground; `None` where there is none to show, or before there is a sky.
+    /// Returns the shadow on the ground outside; `None` if there is none to show, or before the sky is known.
     fn find(&mut self, state: &State) -> Option<&GroundShade> {
         let (scene, daylight) = (&state.document.scene, &state.daylight);
         if !self.0.as_ref().is_some_and(|(revision, file, _)| *revision == daylight.revision && file == scene) {
@@ -50,7 +50,8 @@ impl Ground {
     }
 }
 
-/// CIE types of the overcast skies: the standard and the traditional one (ISO 15469).
+/// CIE types of overcast skies, for which daylight factors are defined: the standard overcast sky 1 and the traditional
+/// one 16 (ISO 15469).
 const OVERCAST: [u8; 2] = [1, 16];
 
 fn openings(scene: &SceneFile) -> Vec<room::Opening> {
@@ -65,7 +66,8 @@ fn openings(scene: &SceneFile) -> Vec<room::Opening> {
         .collect()
 }
 
-/// Returns the results at the sensor points, multiplied by a factor.
+/// Returns the illuminances at the sensor points with their parts and errors, multiplied by a factor: 1 for values in
+/// lx, 100 divided by the illuminance outside for daylight factors \[%\].
 fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
     let cell = |i: usize| {
         let total = figures.total(i) * factor;
@@ -81,10 +83,11 @@ fn cells(figures: &RoomFigures, factor: f64) -> Vec<room::CellValue> {
     (0..figures.positions.len()).map(cell).collect()
 }
 
-/// Returns the reference of a daylight factor, the horizontal illuminance of the unobstructed overcast sky \[lx\].
+/// Returns the reference of the daylight factor: the horizontal illuminance outside under the unobstructed overcast sky
+/// \[lx\].
 ///
 /// # Errors
-/// Returns the reason why there is no daylight factor.
+/// Returns the reason why no daylight factor is defined.
 fn open_sky(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     let sky = &state.document.scene.sky;
     let daylight = daylight.ok_or(say::NO_FACTOR_SKY)?;
@@ -98,7 +101,7 @@ fn open_sky(state: &State, daylight: Option<&Daylight>) -> Result<f64, Text> {
     if horizontal > 0.0 { Ok(horizontal) } else { Err(say::NO_FACTOR_DARK) }
 }
 
-/// Returns the scene with what was moved.
+/// Returns the scene after the user moved a sensor point, the sensor plane, an aperture or an obstruction.
 fn moved(scene: &SceneFile, action: room::Action) -> SceneFile {
     let mut scene = scene.clone();
     match action {

@@ -1,4 +1,4 @@
-//! The sky tile: the dome as the façade sees it; the sun can be dragged.
+//! The sky tile: luminances of sky and surroundings as seen from the façade; the sun can be dragged.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -16,7 +16,7 @@ use egui::Ui;
 /// The sky tile.
 pub const TILE: Tile = Tile { title: "Sky", name: say::SKY, help: say::SKY_HELP };
 
-/// Drawing of the sky tile.
+/// Drawing of the sky tile, with its state between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: sky::State,

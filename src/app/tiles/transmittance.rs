@@ -1,5 +1,5 @@
-//! The transmittance tile: τ over the incident hemisphere, the sun's paths, and the split of the transmitted light by
-//! direction.
+//! The transmittance tile: transmittance τ over the incident hemisphere, sun paths, and the flux split, i.e. the shares
+//! of the transmitted flux by zone of emergent directions.
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
@@ -20,12 +20,13 @@ use std::path::PathBuf;
 /// The transmittance tile.
 pub const TILE: Tile = Tile { title: "Transmittance", name: say::TRANSMITTANCE, help: say::TRANSMITTANCE_HELP };
 
-/// Key of the sun's paths: place, bearing and weather.
+/// Key of the cached sun paths: year; latitude, longitude, UTC offset and azimuth of the façade as bits; weather file.
 type PathKey = (i16, [u64; 4], Option<PathBuf>);
-/// Key of the flux split: dataset, incident direction and surface.
+/// Key of the cached flux split: revision number of the dataset, incident direction, and whether the aperture lies in
+/// the roof.
 type SplitKey = (u64, Incident, bool);
 
-/// Drawing of the transmittance tile.
+/// Drawing of the transmittance tile, with its caches between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: transmittance::State,

@@ -17,7 +17,7 @@ use egui::Ui;
 /// The year tile.
 pub const TILE: Tile = Tile { title: "Year", name: say::YEAR, help: say::YEAR_HELP };
 
-/// Drawing of the year tile.
+/// Drawing of the year tile, with its caches between frames.
 #[derive(Default)]
 pub struct Drawing {
     view: view::State,
@@ -27,14 +27,16 @@ pub struct Drawing {
     months: Cache<u64, Option<[(f64, f64); 12]>>,
 }
 
-/// Returns the remarks beside the year's figures: faults of its weather file, and a state that differs from the year's.
+/// Returns the remarks beside the annual figures: defects of the weather file, and a note if the state shown differs
+/// from that in the annual simulation. `now`: index of the step of the scene's date and time.
 fn remarks(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
     let warnings = annual.year.steps.weather_warnings.iter().map(|code| warning_words(code).to_owned());
     let all = warnings.chain(Some(other_state(seen, annual, now)).filter(|words| !words.is_empty()));
     all.collect::<Vec<_>>().join(". ")
 }
 
-/// Returns a note if the state of the scene's moment differs from the year's state at that step; else an empty text.
+/// Returns a note if the state shown for the scene's date and time differs from the state in the annual simulation at
+/// that step (index `now`); otherwise an empty text.
 fn other_state(seen: &TileInput<'_>, annual: &Annual, now: Option<usize>) -> String {
     let state = seen.state;
     let aperture = state.control_aperture() + 1;
@@ -114,7 +116,7 @@ impl Drawn for Drawing {
     }
 }
 
-/// Returns a number that is different for every map.
+/// Returns a hash that identifies a map of hours, from the revision number of the results and the display settings.
 fn hash(revision: u64, look: &Look) -> u64 {
     use std::hash::{DefaultHasher, Hash, Hasher};
     let mut hasher = DefaultHasher::new();

@@ -1,5 +1,5 @@
-//! Error against run time of the current scene: runs the refinement series on demand, and shows its plot and how
-//! reliable the stated uncertainties are.
+//! Error of the results of the current scene against computing time: starts the refinement series on demand, and shows
+//! its plot and how reliable the stated errors are.
 
 use super::Cache;
 use crate::app::paint::palette::Palette;
@@ -25,13 +25,13 @@ pub struct Input<'a> {
     pub accuracy: Option<&'a Accuracy>,
     /// Number of refinement series run so far.
     pub revision: u64,
-    /// Whether the scene has changed since.
+    /// Whether the scene has changed since that refinement series.
     pub stale: bool,
-    /// Error because of which there is no result.
+    /// Error that prevented a result, as text.
     pub error: Option<&'a str>,
-    /// Share done of a refinement series that runs, 0–1; `None` while none runs.
+    /// Progress of a running refinement series, 0 … 1; `None` if none is running.
     pub running: Option<f32>,
-    /// Views of the obstructions from the apertures of the room that is shown.
+    /// Summaries of the outside as seen from the apertures, in the room results shown.
     pub outside: &'a [OutsideSeen],
 }
 
@@ -44,7 +44,7 @@ pub enum Action {
     Cancel,
 }
 
-/// Draws the view over the available width; the two plots lie one above the other.
+/// Draws the view over the available width, with its two plots one above the other. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = Vec::new();
     ui.horizontal(|ui| {
@@ -107,7 +107,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
-/// Returns the results of the refinement series in sentences.
+/// Returns a summary of the results of a refinement series in sentences.
 pub fn sentence(accuracy: &Accuracy) -> String {
     let coverage = accuracy.ordinary_coverage();
     let mut sentences =

@@ -1,4 +1,5 @@
-//! The BTDF tile: on the left the incident directions, on the right the emergent ones, both seen from inside the room.
+//! View of the BTDF tile: the hemisphere of incident directions on the left, that of emergent directions on the right,
+//! both as seen from inside the room.
 
 mod cut;
 mod form;
@@ -30,25 +31,27 @@ use words::{drawn, leaving_text, pointed_text, selection_text};
 
 type Bits = [u64; 3];
 
-/// Key of the picture of the emergent side: all that it depends on.
+/// Key of the cached picture of the emergent side: revision number of the data, incident direction as bits, disk,
+/// projection, whether q·cosθ is drawn, and colour scale.
 type EmergentKey = (u64, Bits, Disk, Projection, bool, ColourScale);
 
+/// Returns the vector of an incident direction as bits, for keys.
 fn bits(incident: Incident) -> Bits {
     incident.0.vector().to_array().map(f64::to_bits)
 }
 
-/// Incident side: cells in grey, and the incident directions that can be chosen.
+/// Incident side of the view: cells shaded by transmittance, and the incident directions that can be chosen.
 #[derive(Debug, Clone)]
 struct Incidences {
     basis: RingBasis,
-    /// τ of every cell of `basis`.
+    /// Transmittance τ for the centre of every cell of `basis`.
     tau: Vec<f64>,
-    /// Incident directions that can be chosen: centres of the cells, or the data's list if that does not form a
-    /// lattice.
+    /// Incident directions that can be chosen: the centres of the cells of `basis`, or the directions of the data if
+    /// these do not form a lattice.
     choices: Vec<Incident>,
-    /// Disk points of `choices`.
+    /// Disk coordinates (right, up) of `choices`.
     points: Vec<[f64; 2]>,
-    /// Whether `choices` is a list of directions; each place of the disk then belongs to the nearest of them.
+    /// Whether `choices` are the directions of the data; every point of the disk then belongs to the nearest of them.
     listed: bool,
 }
 
@@ -65,7 +68,8 @@ impl Incidences {
         Self { basis, tau, choices, points, listed: list.is_some() }
     }
 
-    /// Returns the index of the choice that a direction belongs to.
+    /// Returns the index in `choices` of the direction or cell to which an incident direction belongs; `None` if there
+    /// is none.
     fn choice(&self, btdf: &Btdf, d: Dir<Facade>) -> Option<usize> {
         match super::listed(btdf) {
             Some(data) => data.standing_for(d),
@@ -74,15 +78,15 @@ impl Incidences {
     }
 }
 
-/// Form in which the emergent side is drawn.
+/// Display of the scattered light on the emergent side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Leaving {
-    /// Disk in false colours.
+    /// Disk of the emergent hemisphere in false colours.
     #[default]
     Disk,
-    /// 3D polar surface whose radius is the value; rotated with the pointer.
+    /// 3D polar surface whose radius is the value q or q·cosθ; it can be rotated.
     Body,
-    /// Section curves over the angle, in the plane of incidence and across it.
+    /// Curves of the value over the emergent angle, in the plane of incidence and in the plane perpendicular to it.
     Cuts,
 }
 
@@ -94,20 +98,20 @@ impl Leaving {
     ];
 }
 
-/// Settings and cached pictures of the tile.
+/// Display settings and cached pictures of the BTDF tile.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Form in which the emergent side is drawn.
+    /// Display of the emergent side.
     pub leaving: Leaving,
-    /// Projection of the hemisphere: how θ becomes a radius.
+    /// Projection of both hemispheres: the radius in the disk as a function of θ.
     pub projection: Projection,
-    /// Whether colours are logarithmic.
+    /// Whether the scale of the emergent side is logarithmic.
     pub log: bool,
     /// Whether q·cosθ is drawn instead of q.
     pub weighted: bool,
-    /// Whether cells of the incident side are shaded in grey by τ.
+    /// Whether the cells of the incident side are shaded in grey by their transmittance τ.
     pub shade_tau: bool,
-    /// Whether the scale is locked.
+    /// Whether the user has locked the scale of the emergent side.
     pub hold: bool,
     incidences: Cache<(u64, Projection), Incidences>,
     indicatrix: Cache<(u64, Bits), Option<Indicatrix>>,
@@ -115,7 +119,7 @@ pub struct State {
     triangles: Cache<(u64, Disk, Projection), Arc<Mesh>>,
     outlines: Cache<(u64, Disk, Projection, bool, Grain), Arc<Mesh>>,
     right: Cache<EmergentKey, Arc<Mesh>>,
-    /// Largest value of the emergent side.
+    /// Cached largest value of the emergent side, q or q·cosθ. \[1/sr\]
     most: Cache<(u64, Bits, bool), f64>,
     scale: Option<ColourScale>,
     lobe: lobe::State,
@@ -143,7 +147,7 @@ impl Default for State {
     }
 }
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the BTDF tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let (mut actions, mut picked) = (vec![], vec![]);
     let words = Words {
@@ -204,6 +208,8 @@ fn disk_rect(disk: &Disk) -> Rect {
     Rect::from_center_size(disk.centre, egui::Vec2::splat(2.0 * disk.radius))
 }
 
+/// Draws the incident side, on which pointer and arrow keys choose a direction. Returns the line for that under the
+/// pointer.
 fn incident_side(
     ui: &mut Ui,
     place: &Place,
@@ -320,14 +326,16 @@ fn outline(disk: &Disk, projection: Projection, side: Side, cell: &Cell) -> Vec<
     cell_outline(projection, side, cell).into_iter().map(|p| disk.screen(p)).collect()
 }
 
-/// Returns hair lines between cells, as long as there are at most 400 of them; more would not be distinguishable.
+/// Returns hair lines between the cells of the incident side; none for more than 400 cells, which could not be
+/// distinguished.
 fn outlines(ui: &Ui, disk: &Disk, projection: Projection, basis: &RingBasis, palette: &Palette) -> Arc<Mesh> {
     let stroke = Stroke::new(0.6, palette.outline.gamma_multiply(0.6));
     let lines = if basis.len() > 400 { vec![] } else { disk.borders(projection, Side::Incident, basis) };
     frozen(ui, lines.into_iter().map(|line| Shape::line(line, stroke)))
 }
 
-/// Returns the scale of the emergent side; it does not change while something is dragged.
+/// Returns the colour scale of the emergent side, up to the value `max` \[1/sr\] unless the comparison sets it or it is
+/// locked.
 fn scale_of(max: f64, input: &Input<'_>, state: &State) -> ColourScale {
     let hold = input.status.hold_scale || state.hold;
     let held = state.scale.clone().filter(|s| hold && s.log == state.log);
@@ -342,6 +350,7 @@ fn scale_of(max: f64, input: &Input<'_>, state: &State) -> ColourScale {
     }
 }
 
+/// Draws the scattered light on the emergent side, with legend. Returns the line for the direction under the pointer.
 fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, state: &mut State) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let direction = input.incidence.direction;
@@ -406,7 +415,8 @@ fn emergent_side(ui: &mut Ui, place: &Place, btdf: &Btdf, input: &Input<'_>, sta
     text
 }
 
-/// Draws the emergent hemisphere in false colours. Returns text and value for the patch under the cursor.
+/// Draws the emergent hemisphere in false colours. Returns text and value (q or q·cosθ) \[1/sr\] for the cell under the
+/// pointer, and the response of the disk.
 fn emergent_disk_ui(
     ui: &mut Ui,
     place: &Place,
@@ -437,7 +447,7 @@ fn emergent_disk_ui(
     (Some(leaving_text(cell.centre(), value, weighted)), Some(value), response)
 }
 
-/// Draws a dot in the emergent direction of regular transmission, with its τ.
+/// Draws a dot in the emergent direction of the regularly transmitted light, with the regular transmittance τ.
 fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Incident, f64), palette: &Palette) {
     let rect = place.rect;
     let at = place.disk.screen(emergent_disk(projection, Emergent::from_through_name(from.0)));
@@ -456,7 +466,8 @@ fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Inc
     ui.painter().galley(place.min, galley, palette.ink);
 }
 
-/// Returns the indicatrix of the chosen incident direction as CSV: emergent direction (façade frame), q, solid angle.
+/// Returns the indicatrix of the chosen incident direction as CSV: emergent direction (θ, φ in the façade frame) \[°\],
+/// projected solid angle of the cell \[sr\], q \[1/sr\].
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::new();

@@ -1,4 +1,5 @@
-//! A weather file as a calendar of hours: its station, its light as a map, and the choice of an hour.
+//! A weather file as a calendar of the hours of its year: a map of direct normal or diffuse horizontal light, from
+//! which an hour can be chosen.
 
 use crate::app::paint::hour_map;
 use crate::app::paint::palette::Palette;
@@ -6,17 +7,19 @@ use crate::drawing::hour_map::HourMap;
 use crate::texts::year as say;
 use egui::{Label, RichText, Sense, Ui, vec2};
 
-/// Height of the map with its legend. \[points\]
+/// Height of the map of hours with its legend. \[points\]
 const HIGH: f32 = 168.0;
 
-/// Input of the calendar.
+/// Input of the calendar in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Maps of direct normal and of diffuse horizontal light.
+    /// Maps of direct normal and of diffuse horizontal illuminance \[lx\] or irradiance \[W/m²\], according to the
+    /// file.
     pub maps: &'a [HourMap; 2],
-    /// The scene's hour: month, day and minute of the day.
+    /// Hour of the scene in the standard time of the file: month, day and minute of the day; `None` if the sky of the
+    /// scene is not from this file.
     pub moment: Option<(u8, u8, u16)>,
-    /// Number that changes with the maps.
+    /// Revision number of the maps, which changes whenever they do.
     pub revision: u64,
 }
 
@@ -27,8 +30,8 @@ pub struct State {
     diffuse: bool,
 }
 
-/// Draws the calendar over the available width. Returns the number of the record that was chosen, and whether by arrow
-/// keys.
+/// Draws the calendar over the available width. Returns the index of the record of the file that the user chose in this
+/// frame, and whether by arrow keys.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<(usize, bool)> {
     ui.horizontal(|ui| {
         for (diffuse, word) in [(false, say::DIRECT_NORMAL), (true, say::DIFFUSE_HORIZONTAL)] {

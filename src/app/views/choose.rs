@@ -1,7 +1,8 @@
-//! Ranking of systems for this façade: products with their objectives and scores, as a table with bars and as a plot of
-//! two objectives against each other; objectives and weights; the reason for a rank, in parts that add up.
+//! View of the ranking tile: products ranked for this room by annual figures, with objectives and scores, as a table
+//! with bars and as a plot of two objectives against each other; objectives and weights; the explanation of a rank as a
+//! sum of parts.
 //!
-//! A view of figures that are computed elsewhere: it ranks nothing itself.
+//! The view draws a ranking that is computed elsewhere.
 
 mod empty;
 mod input;
@@ -18,17 +19,17 @@ use crate::study::rank::{Look, Page, Shortlist, figure_words};
 use crate::texts::choose as say;
 use egui::{Checkbox, ComboBox, Rect, RichText, TextEdit, Ui, UiBuilder};
 
-/// Width of a tile that shows products and objectives side by side. \[points\]
+/// Minimum width of a tile that shows products and objectives side by side. \[points\]
 const BOTH: f32 = 980.0;
-/// Width of the objectives beside the products. \[points\]
+/// Width of the list of objectives beside the products. \[points\]
 const SIDE: f32 = 360.0;
-/// Height of the reasons for the rank of the selected product; less in a low tile. \[points\]
+/// Height of the explanation of the selected product's rank; less in a low tile. \[points\]
 const WHY: f32 = 132.0;
 
-/// Width of the name of an axis. \[points\]
+/// Width of the choice of a plot's axis. \[points\]
 const AXIS: f32 = 190.0;
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the ranking tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
     let mut actions = Vec::new();
     let mut asked = Vec::new();
@@ -66,6 +67,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>) -> Vec<Action> {
     actions
 }
 
+/// Draws the controls in the tile's head: page, filter or axes, and the button that computes what is missing.
 fn controls(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
     let mut look = Look::clone(input.look);
     for (page, word, tip) in [
@@ -115,6 +117,8 @@ fn axis(ui: &mut Ui, list: &Shortlist, name: crate::texts::Text, (own, key): (us
     combo.response.on_hover_text(name).accessible_name(name.get());
 }
 
+/// Draws the chosen page (table, plot or objectives) with the explanation of the selected product's rank. Returns the
+/// line under it.
 fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> String {
     let rect = below_progress(ui, rect, input, out);
     let rect = below_error(ui, rect, input);
@@ -144,14 +148,13 @@ fn body(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut 
     text
 }
 
-/// Returns the number of products that are shown, out of how many, and their weather.
+/// Returns the numbers of shown and of all products, and the weather data, as text.
 fn summary(input: &Input<'_>, list: &Shortlist) -> String {
     let shown = list.shown(input.look).len();
     format!("{} · {}", say::shown(shown, list.entries.len()), input.weather.display())
 }
 
-/// Draws a bar at the upper edge, where no message lies over it, while products are computed. Returns the area left
-/// below it.
+/// Draws the progress bar at the upper edge while products are computed. Returns the area below it.
 fn below_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
     if input.running.is_none() {
         return rect;
@@ -161,7 +164,7 @@ fn below_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Acti
     below
 }
 
-/// Draws the error because of which there is no newer ranking. Returns the area left below it.
+/// Draws the error that prevented a newer ranking, if there is one. Returns the area below it.
 fn below_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);

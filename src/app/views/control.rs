@@ -1,4 +1,5 @@
-//! The control tile: states over the profile angle, today's sun along that curve, and the year.
+//! View of the control tile: the control diagram, i.e. the state (e.g. slat angle) over the profile angle of the sun,
+//! with the scene's day as a curve; and a map of the states over the year.
 
 mod edit;
 mod input;
@@ -19,23 +20,23 @@ use egui::{
 use egui_plot::{HLine, PlotImage, PlotPoint};
 use input::{curve_at, extent};
 
-/// Action of the user.
+/// Request of the user of the control tile.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Action {
-    /// Choice of a state, by its index.
+    /// Choice of a state, by its index in [`Input::states`].
     ChooseState(usize),
-    /// New control curve: value over profile angle \[°\].
+    /// New points of the control curve: profile angle \[°\], and value of the state in its unit.
     EditCurve(Vec<[f64; 2]>),
-    /// Choice of an hour of the year.
+    /// Choice of an hour of the year as the scene's date and time.
     ChooseMoment {
         /// Day of the year, counted from 0.
         day: usize,
-        /// Hour of the day.
+        /// Hour of the day, 0 … 23, in standard time.
         hour: f64,
     },
 }
 
-/// Texture that is kept as long as this value.
+/// Texture of the picture of a year, freed with this value.
 #[derive(Clone)]
 struct Picture(TextureHandle);
 
@@ -45,18 +46,19 @@ impl std::fmt::Debug for Picture {
     }
 }
 
-/// Settings and cached pictures of the tile.
+/// State of the editing, and cached picture of the control tile between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     year: Cache<(u64, bool), Picture>,
     editing: edit::Editing,
 }
 
+/// Minimum number of days of the map of a year.
 const DAYS: usize = 365;
-/// Minimum height of a curve with its axes. \[points\]
+/// Minimum height of the control diagram with its axes. \[points\]
 const LEAST_CURVE: f32 = 120.0;
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the control tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
@@ -70,6 +72,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
+/// Draws the control diagram and, if there is room, the map of the states over the year. Returns the line under them.
 fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> String {
     let rect = remark(ui, rect, input);
     let with_year = !input.year.is_empty() && rect.height() > 220.0;
@@ -89,8 +92,8 @@ fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     })
 }
 
-/// Draws the remark on the year over its full height, or in a small tile a hint with the remark as tooltip. Returns the
-/// area left above it.
+/// Draws the remark on the year at the lower edge, or in a small tile a hint with the remark as tooltip. Returns the
+/// area above it.
 fn remark(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     if input.remark.is_empty() {
         return rect;
@@ -124,6 +127,8 @@ fn state_colour(input: &Input<'_>, index: usize) -> Color32 {
     ColourMap::Sequential.at(index as f32 / (input.states.len().max(2) - 1) as f32)
 }
 
+/// Draws the control diagram, and executes pointer and keys that edit the control curve or choose a state. Returns the
+/// line for the point that is edited or under the pointer.
 fn curve_ui(
     ui: &mut Ui,
     rect: Rect,
@@ -185,7 +190,8 @@ fn curve_ui(
     Some(say::nearest_state(format!("{psi:.0}"), rule, state_text(input, nearest(v)?)))
 }
 
-/// Draws the marks on the curve: its points, today's hours, the states, the sun.
+/// Draws the marks of the control diagram: points of the control curve, full hours of the scene's day, states, and the
+/// sun at the profile angle `now` \[°\].
 fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing: &edit::Editing, palette: &Palette) {
     let area = shown.area();
     let painter = &ui.painter().with_clip_rect(area.expand(7.0).intersect(ui.clip_rect()));
@@ -223,7 +229,8 @@ fn marks_ui(ui: &Ui, shown: &Shown, input: &Input<'_>, now: Option<f64>, editing
     }
 }
 
-/// Returns the year as a picture: one column per day, noon in the middle, one colour per state for every hour.
+/// Returns the picture of the states over a year: a column for each of `days` days, a row for each hour with noon in
+/// the middle, a colour for each state and `night` for hours without one.
 fn year_picture(ui: &Ui, input: &Input<'_>, days: usize, night: Color32) -> Picture {
     let hours = (0..24).rev().flat_map(|hour| (0..days).map(move |day| day * 24 + hour));
     let state = |k: usize| input.year.get(k).copied().flatten();
@@ -232,6 +239,7 @@ fn year_picture(ui: &Ui, input: &Input<'_>, days: usize, night: Color32) -> Pict
     Picture(ui.ctx().load_texture("year-of-states", image, TextureOptions::NEAREST))
 }
 
+/// Draws the map of the states over the year; a click chooses an hour. Returns the line for the hour under the pointer.
 fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (above, legend) = rect.split_top_bottom_at_y(rect.bottom() - 18.0);
@@ -268,6 +276,7 @@ fn year_ui(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, out: &
     Some(say::day_hour(day + 1, days, format!("{hour:.0}"), what))
 }
 
+/// Draws the legend of the states and their colours; if not all fit, every n-th of them.
 fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     let n = input.states.len();
     let room = ((rect.width() - 110.0) / 44.0).max(2.0) as usize;
@@ -287,7 +296,7 @@ fn states_legend(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     }
 }
 
-/// Returns the states of every hour of the year as CSV.
+/// Returns the state and its value for every hour of the year as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("day,hour,state,value\n");

@@ -1,4 +1,5 @@
-//! Signed differences over the sensor points of a room, or over a hemisphere, with zero in the middle of the colours.
+//! View of a candidate's difference from the reference: signed differences at the sensor points of a room, or over a
+//! hemisphere of directions, with zero in the middle of the colour scale.
 
 use super::Cache;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
@@ -12,26 +13,26 @@ use crate::texts::tiles as say;
 use egui::{Mesh, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// Input of the tile.
+/// Input of the view in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Differences to draw; `None` while they are not known.
+    /// Differences to draw (candidate minus reference); `None` while they are unknown.
     pub picture: Option<&'a Picture>,
-    /// Text shown instead of a picture.
+    /// Text shown instead of a missing picture.
     pub missing: &'a str,
-    /// Title: name of the candidate.
+    /// Name of the candidate, as title of the view.
     pub title: &'a str,
-    /// Name of the reference that is subtracted.
+    /// Name of the reference whose values are subtracted, as subtitle.
     pub less: &'a str,
-    /// Colour scale shared by all candidates.
+    /// Colour scale common to all candidates, in the unit of the picture.
     pub scale: &'a ColourScale,
-    /// Number that changes with the picture.
+    /// Revision number of the picture, which changes whenever the picture does.
     pub revision: u64,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the results shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// Cached pictures of the tile.
+/// Cached picture of the view.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
@@ -39,7 +40,7 @@ pub struct State {
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the view into all the space of `ui`.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) {
     let words = Words {
         title: input.title,
@@ -65,6 +66,8 @@ fn signed(value: f64, unit: &str) -> String {
     format!("{sign}{} {unit}", number(value.abs(), 3)).trim_end().to_owned()
 }
 
+/// Draws the differences as a floor plan or a disk, with legend. Returns the line under them: the difference under the
+/// pointer, or a summary.
 fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     let scale = input.scale;
@@ -137,7 +140,8 @@ fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &m
     }
 }
 
-/// Returns the differences in summary.
+/// Returns a summary of the differences as text: mean and number of distinct ones at the sensors, or the range over a
+/// hemisphere.
 fn summary(picture: &Picture) -> Foot {
     let [name, unit] = picture.quantity();
     match picture {

@@ -1,4 +1,5 @@
-//! The luminous intensity distribution of the aperture, drawn as lighting designers draw a luminaire's: nadir down.
+//! View of the LID tile: the luminous intensity distribution (LID) of the aperture as a polar diagram in the style of
+//! lighting design, with the nadir at the bottom, or as a 3D body.
 
 mod body;
 mod scaling;
@@ -18,45 +19,45 @@ use scaling::{Scaling, towards};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Input of the tile.
+/// Input of the LID tile in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Luminous intensity distribution; `None` before the first result.
+    /// Luminous intensity distribution of the first aperture; `None` before the first result.
     pub lid: Option<&'a Lid>,
-    /// Product, state and moment as text.
+    /// Product, state, date and time as text.
     pub name: &'a str,
-    /// Largest intensities of the distribution, as a luminaire file holds them; `None` until they are computed.
+    /// Largest intensities of the distribution as a luminaire file would contain them; `None` until they are computed.
     pub peaks: Option<&'a Peaks>,
-    /// Luminous flux into the room, without the unscattered sun. \[lm\]
+    /// Luminous flux into the room without the undeviated direct sun. \[lm\]
     pub flux: Option<f64>,
-    /// Value of the outermost ring forced from outside (comparison). \[cd\]
+    /// Intensity at the outermost ring, if the comparison sets it. \[cd\]
     pub max: Option<f64>,
-    /// Number that changes with `lid`.
+    /// Revision number of `lid`, which changes whenever the result does.
     pub revision: u64,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the results shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// Action of the user: the tile has none.
+/// Request of the user; the LID tile has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {}
 
-/// Settings and cached curves of the tile.
+/// Display settings and cached curves of the LID tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Whether intensities are per m² of aperture instead of the whole aperture's.
+    /// Whether intensities are stated per square metre of aperture instead of for the whole aperture.
     pub per_area: bool,
-    /// Whether a 3D body is drawn instead of curves.
+    /// Whether a 3D body (photometric solid) is drawn instead of polar curves.
     pub solid: bool,
-    /// Whether the scale of the outermost ring is locked.
+    /// Whether the user has locked the value of the outermost ring.
     pub hold: bool,
     body: body::State,
     curves: Cache<(u64, Vec<LidPlane>, usize), Arc<Curves>>,
-    /// Whether the outermost ring is per area, and its value.
+    /// Value of the outermost ring \[cd or cd/m²\], with whether it is per square metre of aperture.
     ring: Option<(bool, f64)>,
 }
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the LID tile into all the space of `ui`. Returns no requests.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let words = Words {
         title: say::LID.get(),
@@ -89,11 +90,13 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     vec![]
 }
 
-/// Returns the colours of the vertical planes, in their order.
+/// Returns the colours of the curves in vertical C-planes, in the order of the planes.
 fn colours(palette: &Palette) -> [Color32; 3] {
     [palette.first, palette.second, palette.series[2]]
 }
 
+/// Draws the polar diagram of vertical C-planes and, if there is room, that of the horizontal plane, with legend.
+/// Returns the line under them.
 fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     let scaling = Scaling::of(lid, state.per_area);
@@ -174,7 +177,8 @@ fn picture(ui: &mut Ui, rect: Rect, lid: &Lid, input: &Input<'_>, state: &mut St
     text.unwrap_or(rest)
 }
 
-/// Returns the strongest scattered light and its direction as text. The beam is described in the legend.
+/// Returns the largest intensity of scattered light and its direction, and the flux of scattered light, as text. The
+/// legend describes the sun's undeviated beam.
 fn summary(lid: &Lid, input: &Input<'_>, scaling: Scaling) -> Foot {
     let flux = input.flux.map_or_else(String::new, |flux| say::scattered_flux(si(flux, "lm")));
     let Some(peaks) = input.peaks else {
@@ -203,10 +207,10 @@ fn dashed(ui: &Ui, axes: &PolarAxes, surface: Surface, flux: f64, section: LidPl
     ui.painter().extend(Shape::dashed_line(&points, Stroke::new(1.3, palette.weak), 5.0, 4.0));
 }
 
-/// Share of the strongest beam's flux below which beams are not drawn.
+/// Fraction of the strongest beam's flux below which a beam is not drawn.
 const FAINT_BEAM: f64 = 0.02;
 
-/// Draws the beams as rays in the C 0° plane.
+/// Draws the beams of the sun as rays, projected into the C 0° plane.
 fn beams(ui: &Ui, axes: &PolarAxes, lid: &Lid, palette: &Palette) {
     // The fan of a curved mirror is drawn by its stronger rays.
     let strongest = lid.beams.iter().map(|beam| beam.flux).fold(0.0, f64::max);
@@ -219,12 +223,12 @@ fn beams(ui: &Ui, axes: &PolarAxes, lid: &Lid, palette: &Palette) {
     }
 }
 
-/// Height of a line of the legend. \[points\]
+/// Height of a line of the diagram's legend. \[points\]
 const LINE: f32 = 18.0;
-/// Width below which a legend has one entry per line, and short ones. \[points\]
+/// Width below which the legend has one short entry in each line. \[points\]
 const NARROW: f32 = 300.0;
 
-/// Returns descriptions of the sun's beam, from the fullest to the shortest.
+/// Returns descriptions of the sun's beams (intensity, direction, flux), from the fullest to the shortest.
 fn beam_words(lid: &Lid, peaks: Option<&Peaks>, scaling: Scaling) -> Vec<String> {
     let Some(strongest) = lid.beams.iter().max_by(|a, b| a.flux.total_cmp(&b.flux)).filter(|beam| beam.flux > 0.0)
     else {
@@ -246,6 +250,7 @@ fn beam_words(lid: &Lid, peaks: Option<&Peaks>, scaling: Scaling) -> Vec<String>
     vec![full, middle, say::beam_value(&value), say::beam_short(value)]
 }
 
+/// Draws the legend of the diagram: C-planes, beams of the sun, and the ideal diffuser of the same flux.
 fn legend_ui(
     ui: &Ui,
     rect: Rect,
@@ -301,7 +306,7 @@ fn legend_ui(
     }
 }
 
-/// Returns intensities every 5° of C and γ as CSV, as the curves show them. \[cd\]
+/// Returns the intensities of the scattered light \[cd\], as the curves show them, every 5° of C and γ as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("c_deg,gamma_deg,intensity_cd\n");

@@ -1,6 +1,7 @@
-//! The views of the tiles. Each view is a file with its own [`State`](btdf::State) (what only the tile knows), `Input`
-//! (borrowed data), `Action` (request of the user), `show` and `csv`. Views change nothing but their own state;
-//! pictures are rebuilt only when the input's `revision` or the tile's own settings change.
+//! The views of the tiles. Each view is a file with a [`State`](btdf::State) (display settings and caches between
+//! frames), `Input` (borrowed data), `Action` (request of the user), `show` (drawing) and `csv` (numbers as a table).
+//! Views change nothing except their `State`; pictures are made again only if the input's `revision` or a display
+//! setting changes.
 
 pub mod accuracy;
 pub mod btdf;
@@ -18,7 +19,7 @@ pub mod year;
 
 use crate::drawing::hemisphere::{incident_cells, listed};
 
-/// Cached value that is kept until its key changes.
+/// Cached value, which is computed again when its key changes.
 #[derive(Debug, Clone)]
 pub struct Cache<K, V>(Option<(K, V)>);
 
@@ -29,12 +30,12 @@ impl<K, V> Default for Cache<K, V> {
 }
 
 impl<K: PartialEq, V> Cache<K, V> {
-    /// Returns the cached value, whatever its key.
+    /// Returns the cached value, whatever its key; `None` if there is none.
     pub fn last(&self) -> Option<&V> {
         self.0.as_ref().map(|(_, value)| value)
     }
 
-    /// Returns the cached value, or makes it if the key has changed.
+    /// Returns the cached value for a key, computed by `make` if the key has changed.
     pub fn get(&mut self, key: K, make: impl FnOnce() -> V) -> &V {
         if self.0.as_ref().is_none_or(|(old, _)| *old != key) {
             self.0 = None;

@@ -1,6 +1,8 @@
-//! Light in the room: floor plan in false colour with iso-lux lines, section, or its surfaces in perspective.
+//! View of the room tile: illuminances or daylight factors at the sensor points as a floor plan in false colours with
+//! iso-lux lines, or in a section; or the light on the room's surfaces in perspective.
 //!
-//! Floor plan and section have the façade at the left, so that their depth axis is that of the profile under them.
+//! Floor plan and section have the façade at the left, so that they share their horizontal axis, the depth of the room,
+//! with the profile of illuminances under them.
 
 mod boxes;
 mod elevation;
@@ -29,14 +31,14 @@ use egui::{Rect, Sense, Ui, pos2, vec2};
 use input::{Frame, Span};
 use words::{summary, value_text};
 
-/// Settings and cached pictures of the tile.
+/// Display settings and cached pictures of the room tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Whether colours and section are logarithmic.
+    /// Whether the scales of colours and of the profile are logarithmic.
     pub log: bool,
-    /// Whether the scale is locked.
+    /// Whether the user has locked the scale.
     pub hold: bool,
-    /// Row of sensor points in the section, counted along x; `None`: the middle one.
+    /// Index, counted along x, of the row of sensor points that section and profile show; `None`: the middle row.
     pub row: Option<usize>,
     scale: Option<(Quantity, ColourScale)>,
     pictures: plan::Pictures,
@@ -45,16 +47,16 @@ pub struct State {
     perspective: perspective::State,
 }
 
-/// Part of the surroundings that a picture shows.
+/// Extent of the surroundings that a picture shows.
 #[derive(Debug, Clone, Copy)]
 struct Shown {
     side: bool,
     span: Span,
-    /// Whether a line states what lies beyond the picture.
+    /// Whether obstructions or ground lie beyond the picture, which a line of text then states.
     has_beyond: bool,
 }
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the room tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let (mut asked, mut moved) = (vec![], vec![]);
     let solid = input.look.view == RoomView::Perspective;
@@ -92,7 +94,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     asked
 }
 
-/// Draws the toggles of the head.
+/// Draws the controls in the tile's head: view, scale, daylight factor, height of the sensor plane.
 fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLook), actions: &mut Vec<Action>) {
     for view in RoomView::ALL {
         if ui.selectable_label(look.view == view, view.word()).on_hover_text(view.tip()).clicked() {
@@ -124,7 +126,8 @@ fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLo
     }
 }
 
-/// Returns the scale of this frame. While something is dragged equal colours stay equal values.
+/// Returns the colour scale of this frame, in the unit of the results, which does not change while the user drags
+/// something or has locked it.
 fn scale_of(input: &Input<'_>, state: &State) -> ColourScale {
     // A dark room still needs a scale with an extent.
     let least = if input.quantity == Quantity::Illuminance { 1.0 } else { 0.01 };
@@ -144,7 +147,7 @@ fn scale_of(input: &Input<'_>, state: &State) -> ColourScale {
     }
 }
 
-/// Draws floor plan or section, with legend and profile. Returns the line under the picture.
+/// Draws floor plan or section, with legend and profile of illuminances. Returns the line under the picture.
 fn picture(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State, actions: &mut Vec<Action>) -> Foot {
     let palette = Palette::of(ui.visuals());
     let scale = scale_of(input, state);

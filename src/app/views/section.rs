@@ -1,4 +1,5 @@
-//! A described system in section: three periods, outside left and inside right, with a scale and the sun's ray.
+//! View of a described system in section: three periods, with the outside at the left and the inside at the right, a
+//! scale bar and a ray of the sun.
 
 use super::Cache;
 use crate::app::paint::polygon::fill;
@@ -7,35 +8,36 @@ use crate::compute::system::{SystemDescription, SystemKind};
 use crate::texts::{Text, decimal, tiles as say};
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Number of periods drawn.
+/// Number of periods of the system that are drawn.
 const PERIODS: usize = 3;
-/// Free space at either side, for text and ray. \[points\]
+/// Free space at the left and right of the drawing, for text and ray. \[points\]
 const SIDE: f32 = 62.0;
-/// Free space above and below. \[points\]
+/// Free space above and below the drawing. \[points\]
 const EDGE: f32 = 26.0;
-/// Length of the sun's ray. \[points\]
+/// Length of the drawn ray of the sun. \[points\]
 const RAY: f32 = 52.0;
 
-/// State of this view between frames.
+/// Cached polygons of the section between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     outlines: Cache<(u64, usize), Vec<Vec<[f64; 2]>>>,
 }
 
-/// Input of the view.
+/// Input of the section in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Described system; `None`: nothing is described.
+    /// Described system; `None` without a valid description.
     pub system: Option<&'a SystemDescription>,
-    /// Number of descriptions so far, which changes with each.
+    /// Revision number of the description, which changes whenever it does.
     pub revision: u64,
-    /// Index of the state.
+    /// Index of the system's state that is drawn.
     pub state: usize,
-    /// Angle of the sun in the section, > 0 above (to the right, in a section seen from above). \[rad\]
+    /// Angle of the sun's ray to the normal in the section, positive from above (from the right in a horizontal
+    /// section); `None` if it is not drawn. \[rad\]
     pub sun: Option<f64>,
 }
 
-/// Returns the polygons of all periods drawn. \[m\]
+/// Returns the polygons of all periods drawn, with corners as (outward, upward) \[m\].
 fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
     let states = system.states();
     let one = states.get(state).map(|state| system.family().drawing(state)).unwrap_or_default();
@@ -47,14 +49,14 @@ fn stacked(system: &SystemDescription, state: usize) -> Vec<Vec<[f64; 2]>> {
     (0..PERIODS).flat_map(|k| one.iter().map(move |polygon| lifted(k, polygon))).collect()
 }
 
-/// Returns the longest of 1, 2, 5, 10 … mm that is at most `most` \[m\], in mm.
+/// Returns the length of the scale bar in millimetres: the longest of 1, 2, 5, 10 … mm that is at most `most` metres.
 fn scale_bar(most: f64) -> f64 {
     let millimetres = 1000.0 * most;
     let decade = 10_f64.powf(millimetres.log10().floor());
     [5.0, 2.0, 1.0].into_iter().map(|step| step * decade).find(|&length| length <= millimetres).unwrap_or(decade)
 }
 
-/// Returns the text shown instead of a drawing.
+/// Returns the text shown instead of a missing drawing.
 fn nothing_drawn(system: Option<&SystemDescription>) -> Text {
     match system.map(|system| &system.kind) {
         None => say::SECTION_EMPTY,
@@ -63,7 +65,7 @@ fn nothing_drawn(system: Option<&SystemDescription>) -> Text {
     }
 }
 
-/// Draws the section into a rectangle of the given size.
+/// Draws the section into a new rectangle of a size \[points\].
 pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let palette = theme::palette(ui);
@@ -89,7 +91,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, size: Vec2, state: &mut State) {
     });
 }
 
-/// Returns the minimum and maximum of all points, each as (outward, upward). \[m\]
+/// Returns the lowest and highest coordinates of all points, each as (outward, upward) \[m\]; `None` without points.
 fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     outlines.iter().flatten().fold(None, |bounds: Option<[[f64; 2]; 2]>, point| {
         let [low, high] = bounds.unwrap_or([*point; 2]);
@@ -97,10 +99,12 @@ fn bounds(outlines: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     })
 }
 
-/// Input of the drawing: the system, its polygons and their bounds. \[m\]
+/// Input of the drawing: the system, its polygons, and their lowest and highest coordinates, as (outward, upward)
+/// \[m\].
 type Drawn<'a> = (&'a SystemDescription, &'a [Vec<[f64; 2]>], [[f64; 2]; 2]);
 
-/// Draws polygons with their labels, scale and ray. Returns the content of the drawing as text.
+/// Draws the polygons with labels, scale bar and ray of the sun (angle `sun` \[rad\], see [`Input::sun`]). Returns the
+/// content of the drawing as text for screen readers.
 fn draw(
     painter: &Painter,
     rect: Rect,

@@ -1,4 +1,5 @@
-//! The sky from below, the sun that can be dragged, and the resulting illuminances.
+//! View of the sky tile: the luminance of the sky dome as seen from below, the sun, which can be dragged, and the
+//! resulting illuminances.
 
 use super::Cache;
 use crate::app::moment::height_words;
@@ -17,46 +18,46 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt;
 use std::sync::Arc;
 
-/// Luminance of the sky by altitude and bearing. [rad → cd/m²]
+/// Function that returns the luminance of the sky \[cd/m²\] at an altitude and a compass bearing \[rad\].
 pub type Luminance<'a> = &'a dyn Fn(f64, f64) -> f64;
 
-/// Place in the sky. \[rad\]
+/// Position in the sky. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
     /// Altitude above the horizon. \[rad\]
     pub altitude: f64,
-    /// Bearing, clockwise from north. \[rad\]
+    /// Compass bearing, clockwise from north. \[rad\]
     pub bearing: f64,
 }
 
-/// Input of the tile.
+/// Input of the sky tile in one frame.
 #[derive(Clone, Copy)]
 pub struct Input<'a> {
-    /// Luminance of the sky without the sun's disc; cheap to evaluate.
+    /// Luminance of the sky without the sun's disc; `None` before it is known.
     pub luminance: Option<Luminance<'a>>,
-    /// Name of the model, e.g. "CIE type 12, clear".
+    /// Name of the sky model, e.g. "CIE type 12, clear".
     pub name: &'a str,
-    /// Position of the sun, also below the horizon.
+    /// Position of the sun, which may be below the horizon; `None` if it is unknown.
     pub sun: Option<Place>,
-    /// Bearing of the façade's outward normal. \[rad\]
+    /// Compass bearing of the façade's outward normal. \[rad\]
     pub facade_bearing: f64,
-    /// Whether obstructions with edges cover parts of the sky.
+    /// Whether boxes of obstructions cover parts of the sky, so that it must be drawn with sharp edges.
     pub behind_boxes: bool,
-    /// Altitude of a uniform skyline, 0 = none. \[rad\]
+    /// Altitude of a uniform skyline; 0 for none. \[rad\]
     pub skyline: f64,
-    /// Diffuse horizontal illuminance. \[lx\]
+    /// Diffuse horizontal illuminance outside. \[lx\]
     pub diffuse_horizontal: Option<f64>,
-    /// Direct horizontal illuminance. \[lx\]
+    /// Direct horizontal illuminance outside, from the sun. \[lx\]
     pub direct_horizontal: Option<f64>,
-    /// Vertical illuminance on the façade from outside, all sources. \[lx\]
+    /// Illuminance on the outside of the façade from sky, sun, ground and obstructions. \[lx\]
     pub facade_vertical: Option<f64>,
-    /// Whether `facade_vertical` belongs to the scene before the last change.
+    /// Whether `facade_vertical` is outdated, i.e. belongs to an earlier scene.
     pub facade_stale: bool,
-    /// Scale forced from outside (comparison). \[cd/m²\]
+    /// Lowest and highest luminance of the colour scale, if the comparison sets it. \[cd/m²\]
     pub range: Option<[f64; 2]>,
-    /// Number that changes with the sky.
+    /// Revision number of the sky, which changes whenever its luminances do.
     pub revision: u64,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the results shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
@@ -66,32 +67,33 @@ impl fmt::Debug for Input<'_> {
     }
 }
 
-/// Action of the user.
+/// Request of the user of the sky tile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// Drag of the sun to a place: the time follows, with `date` (Shift held) the date too, or with `free` (Alt held)
-    /// the angles alone.
+    /// Drag of the sun to a position in the sky, which changes the time of day, with Shift also the date, or with Alt
+    /// only the sun's angles.
     SunDragged {
-        /// Place to which the sun was dragged.
+        /// Position to which the sun was dragged.
         place: Place,
-        /// Whether the angles are independent of date and time.
+        /// Whether to change the angles of the sun independently of date and time (Alt).
         free: bool,
-        /// Whether the date may change.
+        /// Whether to change also the date (Shift).
         date: bool,
     },
     /// Release of the sun, so that scales may change again.
     SunReleased,
 }
 
-/// Key of the dome's picture: sky, disk, scale, façade, and whether it is dark and fine.
+/// Key of the cached picture of the dome: revision number of the sky, disk, colour scale, bearing of the façade as
+/// bits, and whether the theme is dark and the mesh fine.
 type DomeKey = (u64, Disk, ColourScale, u64, (bool, bool));
 
-/// Settings and cached pictures of the tile.
+/// Display settings and cached pictures of the sky tile.
 #[derive(Debug, Clone)]
 pub struct State {
-    /// Whether colours are logarithmic.
+    /// Whether the colour scale of luminances is logarithmic.
     pub log: bool,
-    /// Whether the scale is locked.
+    /// Whether the user has locked the colour scale.
     pub hold: bool,
     scale: Option<ColourScale>,
     extent: Cache<u64, [f64; 2]>,
@@ -114,14 +116,14 @@ impl Default for State {
     }
 }
 
-/// Width from which the three illuminances stand in one line. \[points\]
+/// Minimum width at which the three illuminances are written in one line. \[points\]
 const WIDE_FIGURES: f32 = 460.0;
-/// Width below which each illuminance has a line of its own. \[points\]
+/// Width below which each illuminance is written in a separate line. \[points\]
 const NARROW_FIGURES: f32 = 190.0;
-/// Height of a line of illuminances. \[points\]
+/// Height of a line of the illuminances. \[points\]
 const FIGURE_LINE: f32 = 16.5;
 
-/// Returns the number of lines that the illuminances take.
+/// Returns the number of lines that the illuminances take in a width \[points\].
 fn figure_lines(width: f32) -> u8 {
     if width < NARROW_FIGURES {
         3
@@ -132,18 +134,19 @@ fn figure_lines(width: f32) -> u8 {
     }
 }
 
-/// Returns the disk point (right, up) of a place: north up, east left.
+/// Returns the disk coordinates (right, up) of a position in the sky as seen from below: north at the top, east at the
+/// left.
 fn disk_point(place: Place) -> [f64; 2] {
     dome_point(place.altitude, place.bearing)
 }
 
-/// Returns the place of a disk point; beyond the rim a place on the horizon.
+/// Returns the position in the sky of disk coordinates (right, up); on the horizon beyond the rim.
 fn place_of([right, up]: [f64; 2]) -> Place {
     let r = right.hypot(up).min(1.0);
     Place { altitude: (1.0 - r) * FRAC_PI_2, bearing: wrap_two_pi((-right).atan2(up)) }
 }
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the sky tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
@@ -171,6 +174,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
+/// Draws dome, illuminances and, if there is room, the section of luminances. Returns the line under them.
 fn picture(
     ui: &mut Ui,
     rect: Rect,
@@ -211,7 +215,8 @@ fn picture(
     section.and_then(|place| section_ui(ui, place, luminance, input, state, &scale)).unwrap_or(text)
 }
 
-/// Returns the lowest and highest luminance, leaving out dark parts. \[cd/m²\]
+/// Returns the lowest and highest luminance of a sky above the horizon, without parts of luminance 0 \[cd/m²\]; the
+/// lowest is infinite for a dark sky.
 pub fn extent(luminance: Luminance<'_>) -> [f64; 2] {
     let mut range = [f64::INFINITY, 0.0_f64];
     for ring in 0..18 {
@@ -225,6 +230,7 @@ pub fn extent(luminance: Luminance<'_>) -> [f64; 2] {
     range
 }
 
+/// Draws the diffuse and direct horizontal illuminance and that on the façade, in klx.
 fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     let figures = [
         (say::E_DIFFUSE, input.diffuse_horizontal),
@@ -248,6 +254,7 @@ fn figures_ui(ui: &Ui, rect: Rect, input: &Input<'_>, palette: &Palette) {
     }
 }
 
+/// Draws the dome with legend, and executes drags of the sun. Returns the line for the point under the pointer.
 fn dome(
     ui: &mut Ui,
     rect: Rect,
@@ -327,7 +334,8 @@ fn dome(
     }
 }
 
-/// Returns "sun at 41.0° altitude, azimuth 171°", and shorter wordings; "15.0° below the horizon".
+/// Returns a position in the sky as text in three wordings from full to short: "sun at 41.0° altitude, azimuth 171°";
+/// for negative altitudes "15.0° below the horizon". `what`: name of what is there.
 fn place_text(what: Text, place: Place) -> [String; 3] {
     let degrees = place.altitude.to_degrees();
     let height = height_words(degrees, 1);
@@ -338,7 +346,8 @@ fn place_text(what: Text, place: Place) -> [String; 3] {
     [say::with_bearing(&place, format!("{bearing:.0}")), place, short]
 }
 
-/// Returns the dome in colours, each half divided into `rings` and `sectors`.
+/// Returns a mesh of the dome coloured by luminance. The halves in front of and behind the façade (bearing `facade`
+/// \[rad\]) are each divided into `rings` by `sectors`.
 fn dome_mesh(
     disk: &Disk,
     luminance: Luminance<'_>,
@@ -379,6 +388,7 @@ fn mix(a: Color32, b: Color32, t: f32) -> Color32 {
     Color32::from_rgb(m(a.r(), b.r()), m(a.g(), b.g()), m(a.b(), b.b()))
 }
 
+/// Draws the frame of the dome: rings of altitude, compass points, plane of the façade, uniform skyline.
 fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter();
     let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
@@ -405,6 +415,8 @@ fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     }
 }
 
+/// Draws the plot of luminance over the zenith angle in the vertical plane of the sun or, without it, the façade's
+/// normal.
 fn section_ui(
     ui: &mut Ui,
     rect: Rect,
@@ -446,7 +458,7 @@ fn section_ui(
     Some(Foot::from([say::from_zenith(format!("{x:.0}"), &luminance), luminance]))
 }
 
-/// Returns the luminance of the dome every 5° of altitude and 10° of bearing, as CSV.
+/// Returns the luminance of the sky \[cd/m²\] every 5° of altitude and 10° of bearing as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("altitude_deg,bearing_deg,luminance_cd_m2\n");

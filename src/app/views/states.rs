@@ -1,4 +1,5 @@
-//! The states of a product as a strip: each a small picture of its section (or of its slats' angle) over its name.
+//! Strip of the states of a product: for each state a small picture of its section (or of its slat angle or
+//! transmittance) over its name.
 
 use super::Cache;
 use crate::app::paint::polygon::fill;
@@ -7,65 +8,67 @@ use crate::compute::system::SystemDescription;
 use crate::texts::{fixed, tiles as say};
 use egui::{FontId, Painter, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};
 
-/// Number of periods in a picture: one slat alone does not show how they overlap.
+/// Number of periods of a system in the picture of a state: a single slat does not show how slats overlap.
 const PERIODS: usize = 2;
-/// Size of a state with its name. \[points\]
+/// Width and height of a state in the strip, with its name. \[points\]
 const CELL: Vec2 = vec2(48.0, 54.0);
 /// Height of the picture of a state. \[points\]
 const PICTURE: f32 = 34.0;
-/// Gap between two states. \[points\]
+/// Gap between two neighbouring states. \[points\]
 const GAP: f32 = 3.0;
-/// Maximum number of visible rows; others are scrolled to.
+/// Maximum number of visible rows of states; others are reached by scrolling.
 const MOST_ROWS: usize = 2;
 
-/// State as the strip shows it.
+/// State of a product in the strip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Key in the description.
+    /// Key of the state in the product.
     pub key: String,
-    /// Name for people, e.g. `-35°`.
+    /// Name of the state for users, e.g. `-35°`.
     pub words: String,
-    /// Slat angle; `None` if it is not known. \[°\]
+    /// Slat angle of the state \[°\]; `None` if it is unknown.
     pub angle: Option<f64>,
-    /// Visible transmittance under uniform luminance.
+    /// Luminous transmittance of the state under uniform diffuse light; `None` if it is unknown.
     pub tau: Option<f64>,
 }
 
-/// Input of the strip.
+/// Input of the strip in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// Product and its description as text: pictures are made again when these change.
+    /// Key of the product, and text of the system description it was computed from; pictures are made again when one of
+    /// them changes.
     pub product: [&'a str; 2],
-    /// Function that reads the description of the product.
+    /// Function that parses the text of the description; `None` if it is not one.
     pub describe: fn(&str) -> Option<SystemDescription>,
-    /// States in order.
+    /// States of the product in their order.
     pub marks: &'a [Mark],
-    /// Index of the state that is set.
+    /// Index of the state that is set; `None` if none is.
     pub shown: Option<usize>,
 }
 
-/// Picture of a state.
+/// Picture of a state in the strip.
 #[derive(Debug, Clone, PartialEq)]
 enum Picture {
-    /// Polygons of the section, (outward, upward), within the unit square about 0.
+    /// Section: polygons with corners as (outward, upward), within a square of side 1 centred at 0.
     Section(Vec<Vec<[f64; 2]>>),
-    /// Slats at this angle. \[rad\]
+    /// Slats, by their angle \[rad\].
     Slats(f64),
-    /// Pane of this visible transmittance.
+    /// Pane, by its luminous transmittance.
     Pane(f64),
-    /// No picture: nothing is known of the state.
+    /// No picture, because neither section nor angle nor transmittance is known.
     Nothing,
 }
 
-/// State of this view between frames.
+/// Cached pictures and scroll position of the strip between frames.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     pictures: Cache<[String; 2], Vec<Picture>>,
-    /// Product and state that were scrolled to last.
+    /// Key of the product and index of the state that the strip was last scrolled to.
     seen: Option<(String, Option<usize>)>,
 }
 
-/// Returns the sections of all states in one scale, so that they can be compared; `None` where one of them has none.
+/// Returns the sections of all states at a common scale, so that they can be compared; `None` if a state has no
+/// section.
 fn sections(system: &SystemDescription, marks: &[Mark]) -> Option<Vec<Picture>> {
     let family = system.family();
     let period = family.drawing_period().unwrap_or(0.0);
@@ -115,13 +118,13 @@ fn in_a_row(width: f32) -> usize {
     (((width + GAP) / (CELL.x + GAP)).floor() as usize).max(1)
 }
 
-/// Returns the height that the strip takes in a panel of this width. \[points\]
+/// Returns the height of a strip of `states` states in a panel of a width. \[points\]
 pub fn height(width: f32, states: usize) -> f32 {
     let rows = states.div_ceil(in_a_row(width)).clamp(1, MOST_ROWS);
     rows as f32 * (CELL.y + GAP)
 }
 
-/// Draws the strip. Returns the index of a state that was clicked.
+/// Draws the strip. Returns the index of the state that was clicked in this frame.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> {
     let pictures = state.pictures.get(input.product.map(str::to_owned), || pictures(input));
     let seen = Some((input.product[0].to_owned(), input.shown));
@@ -147,6 +150,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Option<usize> 
     clicked
 }
 
+/// Draws one state: its picture over its name.
 fn cell(ui: &mut Ui, mark: &Mark, picture: &Picture, chosen: bool) -> egui::Response {
     let palette = theme::palette(ui);
     let (rect, response) = ui.allocate_exact_size(CELL, Sense::click());
@@ -178,6 +182,7 @@ fn cell(ui: &mut Ui, mark: &Mark, picture: &Picture, chosen: bool) -> egui::Resp
     response
 }
 
+/// Draws the picture of a state into a rectangle.
 fn draw(painter: &Painter, rect: Rect, picture: &Picture, palette: &theme::Palette, ground: egui::Color32) {
     let line = Stroke::new(1.2, palette.text);
     let (middle, size) = (rect.center(), rect.width().min(rect.height()));

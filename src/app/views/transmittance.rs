@@ -1,5 +1,5 @@
-//! Transmittance over the incident hemisphere with the sun's paths, and the split of the transmitted light by
-//! direction.
+//! View of the transmittance tile: directional-hemispherical transmittance τ over the incident hemisphere with sun
+//! paths, and the flux split, i.e. the shares of the transmitted flux by zone of emergent directions.
 
 use super::Cache;
 use crate::app::incidence::{Incidence, Source, direction_text};
@@ -20,48 +20,49 @@ use std::f64::consts::PI;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
 
-/// Input of the tile.
+/// Input of the transmittance tile in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// BTDF for light from outside.
+    /// Bidirectional transmittance distribution function (BTDF) for light from outside; `None` while no product is
+    /// selected.
     pub btdf: Option<&'a Btdf>,
-    /// Product and state as text.
+    /// Names of product and state as text.
     pub name: &'a str,
-    /// Sun's path on the 21st of January … December: hour and direction. Directions behind the façade are left out by
-    /// the tile.
+    /// Path of the sun on the 21st of each month from January to December: points of hour of the day \[h\] and
+    /// direction of the sun. Directions behind the façade may be included; the tile leaves them out.
     pub sun_paths: &'a [Vec<(f64, Incident)>],
-    /// Direction of the sun now.
+    /// Direction of the sun at the scene's date and time; `None` if it is unknown.
     pub moment: Option<Incident>,
     /// Incident direction that the BTDF tile shows.
     pub incidence: Incidence,
-    /// Split of the transmitted light for `incidence`; `None` without data.
+    /// Flux split for the incident direction `incidence`; `None` without data.
     pub split: Option<FluxSplit>,
-    /// Scale forced from outside (comparison).
+    /// Lowest and highest τ of the colour scale, if the comparison sets it.
     pub range: Option<[f64; 2]>,
-    /// Number that changes with `btdf`.
+    /// Revision number of `btdf`, which changes whenever the data do.
     pub revision: u64,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the data shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// Action of the user.
+/// Request of the user of the transmittance tile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// Choice of an incident direction, to show its indicatrix.
+    /// Choice of an incident direction, for which the BTDF tile then shows the scattered light.
     ChooseIncidence(Incident),
 }
 
-/// Settings and cached pictures of the tile.
+/// Display settings and cached pictures of the transmittance tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
-    /// Whether the sun's paths are left out.
+    /// Whether sun paths are hidden.
     pub hide_paths: bool,
-    /// Whether colours are logarithmic.
+    /// Whether the colour scale of τ is logarithmic.
     pub log: bool,
-    /// Whether the scale is locked.
+    /// Whether the user has locked the colour scale.
     pub hold: bool,
     scale: Option<ColourScale>,
-    /// Cells by which the map is drawn, and their largest τ.
+    /// Cells of incident directions by which the map is drawn, and their largest τ.
     cells: Cache<u64, (RingBasis, f64)>,
     paths: Cache<PathsKey, Paths>,
     mesh: Cache<(u64, Disk, ColourScale), Arc<Mesh>>,
@@ -69,7 +70,7 @@ pub struct State {
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the transmittance tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = vec![];
     let words = Words {
@@ -98,6 +99,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
+/// Draws the map of τ with sun paths and legend, and the flux split. Returns the line under them.
 fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut State, out: &mut Vec<Action>) -> Foot {
     let palette = Palette::of(ui.visuals());
     let map = match (input.split, beside(rect)) {
@@ -185,23 +187,26 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
 
 /// Width of the flux split beside the map. \[points\]
 const BAR_WIDTH: f32 = 124.0;
-/// Height of the flux split under the map: its incident direction, a bar, and the zones. \[points\]
+/// Height of the flux split under the map: lines for its incident direction and its zones, and a bar. \[points\]
 const STRIP_HEIGHT: f32 = 50.0;
 /// Height of the flux split under the map without the line of its incident direction. \[points\]
 const LOW_STRIP_HEIGHT: f32 = 34.0;
-/// Height of a tile below which only the line under the picture names the incident direction of the split. \[points\]
+/// Height of a tile below which the incident direction of the flux split is named in the line under the picture only.
+/// \[points\]
 const LOW_TILE: f32 = 220.0;
 
 fn strip_height(rect: Rect) -> f32 {
     if rect.height() < LOW_TILE { LOW_STRIP_HEIGHT } else { STRIP_HEIGHT }
 }
 
-/// Whether the flux split has room beside the map, so that the map is no smaller than above it.
+/// Whether the flux split is drawn beside the map, i.e. whether the map is then at least as large as with the split
+/// under it.
 fn beside(rect: Rect) -> bool {
     rect.width() - BAR_WIDTH >= (rect.height() - strip_height(rect) - LEGEND_HEIGHT).min(rect.width())
 }
 
-/// Returns τ in colours. Patch-averaged data stay flat, so that the picture shows no resolution that they do not have.
+/// Returns a mesh of τ in colours over the incident hemisphere. Data by cells are drawn in flat colours, so that the
+/// picture does not suggest a resolution that they do not have.
 fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) -> Mesh {
     match &btdf.scattered {
         Some(Scattered::Cells(_) | Scattered::Directions(_) | Scattered::Tree(_)) => {
@@ -215,17 +220,18 @@ fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) ->
     }
 }
 
-/// Sun's paths as triangles, and the places for names beside them.
+/// Sun paths as a mesh, and the labels beside them with their screen positions.
 #[derive(Debug, Clone)]
 struct Paths {
     lines: Arc<Mesh>,
     names: Vec<(egui::Pos2, String)>,
 }
 
-/// Key of the sun's paths: paths, disk, resolution and language.
+/// Key of the cached sun paths: fingerprint of the paths, disk, screen resolution and language.
 type PathsKey = (u64, Disk, Grain, Language);
 
-/// Returns a number that distinguishes the paths of one place and façade from others, by the middle of each.
+/// Returns a hash that distinguishes the sun paths of one site and façade from others, computed from the middle point
+/// of each path.
 fn fingerprint(paths: &[Vec<(f64, Incident)>]) -> u64 {
     let mut hasher = DefaultHasher::new();
     for path in paths {
@@ -238,7 +244,7 @@ fn fingerprint(paths: &[Vec<(f64, Incident)>]) -> u64 {
     hasher.finish()
 }
 
-/// Writes names over all lines, where neither another name nor the sun is.
+/// Draws the labels of the sun paths over all lines, except those that another label or the sun would cover.
 fn name_paths(ui: &Ui, paths: &Paths, sun: Option<egui::Pos2>, palette: &Palette) {
     let mut used: Vec<Rect> = vec![];
     for (place, text) in &paths.names {
@@ -251,6 +257,7 @@ fn name_paths(ui: &Ui, paths: &Paths, sun: Option<egui::Pos2>, palette: &Palette
     }
 }
 
+/// Returns the sun paths on a disk, with marks at full hours and labels.
 fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>]) -> Paths {
     let (mut shapes, mut names) = (vec![], vec![]);
     let mut name = |place: egui::Pos2, text: String| names.push((place, text));
@@ -302,7 +309,8 @@ fn sun_paths(ui: &Ui, disk: &Disk, paths: &[Vec<(f64, Incident)>]) -> Paths {
     Paths { lines: frozen(ui, shapes), names }
 }
 
-/// Returns the name of the split's incident direction, in a line of at most `width`.
+/// Returns the incident direction of the flux split as text, in a wording that is at most `width` \[points\] wide if
+/// there is one.
 fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
     let [_, middle, short] = incidence.texts();
     let font = FontId::proportional(13.0);
@@ -311,7 +319,7 @@ fn split_title(ui: &Ui, incidence: &Incidence, width: f32) -> String {
     [format!("{middle}:"), short].into_iter().find(fits).unwrap_or_else(|| incidence.name().to_owned())
 }
 
-/// Returns the colour of a zone, counted from top to bottom.
+/// Returns the colour of a zone of emergent directions, counted from top to bottom.
 fn zone_colour(zone: usize) -> Color32 {
     ColourMap::Sequential.at(0.85 - 0.23 * zone as f32)
 }
@@ -322,7 +330,7 @@ fn name_split(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence)
     tile::name(ui, &response, say::FLUX_SPLIT, &format!("{full}: {}", split.sentence()));
 }
 
-/// Draws the split as a vertical bar beside the map, with the name of each zone.
+/// Draws the flux split as a vertical bar beside the map, with the name and share of each zone.
 fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
     let total = split.total();
     name_split(ui, rect, split, incidence);
@@ -355,7 +363,8 @@ fn split_bar(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, 
     ui.painter().rect_stroke(column, 0, Stroke::new(1.0, palette.outline), StrokeKind::Middle);
 }
 
-/// Draws the split as a horizontal bar under the map, with its incident direction and the zone that gets most light.
+/// Draws the flux split as a horizontal bar under the map, with its incident direction and the zone with the largest
+/// share.
 fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence, palette: &Palette) {
     let total = split.total();
     name_split(ui, rect, split, incidence);
@@ -380,7 +389,7 @@ fn split_strip(ui: &mut Ui, rect: Rect, split: &FluxSplit, incidence: &Incidence
     ui.painter().galley(pos2(left, bar.bottom() + 3.0), fitting.clone(), palette.ink);
 }
 
-/// Returns τ per incident cell as CSV.
+/// Returns the transmittance τ for the incident cells as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let mut out = String::from("theta_deg,phi_deg,projected_solid_angle_sr,tau\n");

@@ -1,5 +1,5 @@
-//! Annual simulation of the room: its hours as a map, its figures, the electric lighting over a day and by month;
-//! before there is a result, the ways to one.
+//! View of the year tile: an annual simulation of the room as a map of hours, a table of figures, and the electric
+//! lighting over a day and by month; before there is a result, its settings and the button that computes it.
 
 mod empty;
 mod figures;
@@ -16,16 +16,16 @@ use crate::texts::{fixed, words::MONTHS, year as say};
 use egui::{ComboBox, Rect, Ui, UiBuilder};
 use parts::progress;
 
-/// Cached pictures of the tile.
+/// Cached picture of the year tile.
 #[derive(Debug, Clone, Default)]
 pub struct State {
     map: hour_map::State,
 }
 
-/// Width of a tile that shows map and figures side by side. \[points\]
+/// Minimum width of a tile that shows map and figures side by side. \[points\]
 const BOTH: f32 = 1000.0;
 
-/// Draws the tile into all the space of `ui`.
+/// Draws the year tile into all the space of `ui`. Returns the requests of the user.
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let mut actions = Vec::new();
     let mut asked = Vec::new();
@@ -58,6 +58,8 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     actions
 }
 
+/// Draws the controls in the tile's head: page, quantity and scale of the map or month of the lighting, and the button
+/// that computes again.
 fn controls(ui: &mut Ui, input: &Input<'_>, shown: &Shown<'_>, out: &mut Vec<Action>) {
     let mut look = input.look;
     for (page, word, tip) in [
@@ -109,6 +111,7 @@ fn month(ui: &mut Ui, month: &mut Option<u8>, of_scene: u8) {
     combo.response.on_hover_text(say::MONTH_TIP).accessible_name(say::MONTH.get());
 }
 
+/// Draws the chosen page: map, figures or electric lighting. Returns the line under it.
 fn body(
     ui: &mut Ui,
     rect: Rect,
@@ -135,7 +138,7 @@ fn body(
     }
 }
 
-/// Draws a bar at the lower edge while a newer year is computed. Returns the area left above it.
+/// Draws the progress bar at the lower edge while a newer annual simulation is computed. Returns the area above it.
 fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) -> Rect {
     let Some(share) = input.running else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.bottom() - 26.0);
@@ -143,7 +146,7 @@ fn above_progress(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Acti
     above
 }
 
-/// Draws the error because of which there is no newer year. Returns the area left below it.
+/// Draws the error that prevented a newer annual simulation, if there is one. Returns the area below it.
 fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     let Some(error) = input.error else { return rect };
     let (above, below) = rect.split_top_bottom_at_y(rect.top() + 20.0);
@@ -155,6 +158,8 @@ fn above_error(ui: &mut Ui, rect: Rect, input: &Input<'_>) -> Rect {
     below
 }
 
+/// Draws the map of hours; a click or arrow keys choose a step. Returns the line for the step under the pointer or
+/// marked.
 fn map(
     ui: &mut Ui,
     rect: Rect,
@@ -191,7 +196,7 @@ fn map(
     }
 }
 
-/// Returns weather station, number of steps and computation time as text.
+/// Returns weather station, number of steps with light, and computing time as text.
 fn summary(shown: &Shown<'_>) -> String {
     let year = shown.year;
     let lit = year.chosen.len() - year.light.dark;
@@ -199,7 +204,7 @@ fn summary(shown: &Shown<'_>) -> String {
     say::summary(&year.steps.station.name, lit, year.light.sets, fixed(seconds, 1))
 }
 
-/// Returns the numbers of the page that is shown, as CSV.
+/// Returns the numbers of the page shown as CSV.
 pub fn csv(input: &Input<'_>) -> String {
     let Some(shown) = &input.shown else { return String::new() };
     match input.look.page {

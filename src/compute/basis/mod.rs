@@ -1,5 +1,5 @@
-//! Divisions of the hemisphere into cells: one type for every lattice made of rings about the normal
-//! (Klems, Tregenza, measured rings, equal-area rings), and the resampling from one to another.
+//! Divisions of the hemisphere into cells: one type for all bases of rings about the normal (Klems, Tregenza, measured
+//! rings, equal-area rings), the square grid of tensor trees, and the resampling from one basis to another.
 
 mod neighbours;
 mod resample;

@@ -1,18 +1,18 @@
-//! Neighbouring cells of a division of the hemisphere.
+//! Neighbouring cells of a ring basis.
 
 use super::rings::RingBasis;
 use std::f64::consts::PI;
 
-/// Distance below which two borders count as the same. \[rad\] Above the rounding of azimuths (2⁻⁵² · 2π ≈ 1e-15),
-/// below the narrowest sector of a basis (2π/7200 ≈ 9e-4).
+/// Angular distance below which two borders of cells count as the same. \[rad\] Above the rounding of azimuths (2⁻⁵² ·
+/// 2π ≈ 1e-15), below the narrowest sector of a basis (2π/7200 ≈ 9e-4).
 const SLACK: f64 = 1e-6;
 
-/// Lists of the cells that share a border, one list per cell.
+/// Neighbours of every cell of a basis: the indices of the cells that share a border with it.
 #[derive(Debug, Clone)]
 pub struct Neighbours(Vec<Vec<usize>>);
 
 impl Neighbours {
-    /// Finds the neighbours of all cells of a division.
+    /// Finds the neighbours of all cells of a basis.
     pub fn new(basis: &RingBasis) -> Self {
         let cells: Vec<_> = basis.cells().collect();
         let of_ring = |ring: usize| basis.first_cell(ring)..basis.first_cell(ring) + basis.rings()[ring].sectors;
@@ -34,12 +34,13 @@ impl Neighbours {
         Self(list)
     }
 
-    /// Returns the neighbours of one cell.
+    /// Returns the indices of the neighbours of the cell with index `cell`.
     pub fn of(&self, cell: usize) -> &[usize] {
         &self.0[cell]
     }
 
-    /// Returns the neighbours of `cells` without these cells and without `but`; each once, in order.
+    /// Returns the indices of the neighbours of the cells `cells`, without these cells themselves and without `but`;
+    /// each once, rising.
     pub fn about(&self, cells: &[usize], but: &[usize]) -> Vec<usize> {
         let mut near: Vec<usize> = cells.iter().flat_map(|&cell| self.of(cell).iter().copied()).collect();
         near.retain(|cell| !cells.contains(cell) && !but.contains(cell));
@@ -48,7 +49,8 @@ impl Neighbours {
         near
     }
 
-    /// Returns the median of the values of the neighbours of `cells`, `but` left out; 0 where there are none.
+    /// Returns the median of `values` (one per cell of the basis) over the neighbours of the cells `cells`, without the
+    /// cells `but`; 0 if there are none.
     pub fn level(&self, values: &[f64], cells: &[usize], but: &[usize]) -> f64 {
         let mut near: Vec<f64> = self.about(cells, but).into_iter().map(|cell| values[cell]).collect();
         near.sort_unstable_by(f64::total_cmp);

@@ -1,21 +1,24 @@
-//! Resampling from the cells of one basis to those of another: the one place where values change their cells.
+//! Resampling of values from the cells of one ring basis to those of another.
 //!
-//! Both bases are products of θ-rings and equal azimuth sectors, so the overlap of two cells is the product of an
-//! overlap in sin²θ and one in φ: exact, no sampling. Values are taken as constant on their cells; the result is their
-//! mean over every target cell, so the flux is conserved to rounding wherever the source covers the hemisphere.
+//! Both bases are products of θ-rings and equal azimuth sectors, so that the overlap of two cells is the product of an
+//! overlap in sin²θ and one in φ: exact, no sampling. Values are assumed to be constant on their cells; the result is
+//! their mean over every target cell, so that the flux is conserved to rounding wherever the source covers the
+//! hemisphere.
 
 use super::rings::RingBasis;
 use std::f64::consts::PI;
 
-/// Overlaps of the cells of two bases in projected solid angle, in the façade frame.
+/// Resampling from the cells of one ring basis to those of another by the overlaps of their projected solid angles, in
+/// the façade frame.
 #[derive(Debug, Clone)]
 pub struct Resampling {
-    /// Source cells that overlap each target cell, each with overlap / area of the target.
+    /// Source cells that overlap each target cell, each with the overlap relative to the projected solid angle of the
+    /// target cell.
     shares: Vec<Vec<(usize, f64)>>,
 }
 
 impl Resampling {
-    /// Computes the overlaps of the cells of two bases.
+    /// Computes the overlaps of the cells of `source` with those of `target`.
     pub fn new(source: &RingBasis, target: &RingBasis) -> Self {
         let mut shares = vec![Vec::new(); target.len()];
         for (to, to_ring) in target.rings().iter().enumerate() {
@@ -48,24 +51,26 @@ impl Resampling {
         Self { shares }
     }
 
-    /// Computes the means over the target cells of a function that is constant on the source cells.
+    /// Returns the means over the target cells of a function that is constant on the source cells; `values` holds it by
+    /// source cell.
     pub fn apply(&self, values: &[f64]) -> Vec<f64> {
         self.shares.iter().map(|list| list.iter().map(|&(cell, share)| share * values[cell]).sum()).collect()
     }
 
-    /// Returns the source cells of one target cell, with the share of the target that each fills.
+    /// Returns the source cells that overlap the target cell with index `target`, with the share of the target's
+    /// projected solid angle that each covers.
     pub fn shares(&self, target: usize) -> &[(usize, f64)] {
         &self.shares[target]
     }
 }
 
-/// Returns sin²b − sin²a without cancellation; not positive when b ≤ a.
+/// Returns sin²b − sin²a without cancellation; not positive if b ≤ a.
 fn span(a: f64, b: f64) -> f64 {
     (b - a).sin() * (b + a).sin()
 }
 
-/// Whether two azimuth intervals, given by centre and width, surely do not overlap. Spares most pairs of fine cells the
-/// sum over the turns.
+/// Whether two azimuth intervals, given by centre and width \[rad\], certainly do not overlap. It spares most pairs of
+/// fine cells the sum over full turns.
 fn are_disjoint(a: (f64, f64), b: (f64, f64)) -> bool {
     let way = a.0 - b.0;
     (way - 2.0 * PI * (way / (2.0 * PI)).round()).abs() > 0.5 * (a.1 + b.1) + 1e-9
@@ -83,8 +88,8 @@ fn common_width(a: (f64, f64), b: (f64, f64)) -> f64 {
         .sum()
 }
 
-/// Returns the index of the identical source cell for every target cell; `None` unless both bases have the same cells
-/// and only number them differently.
+/// Returns for every target cell the index of the identical source cell; `None` unless both bases have the same cells,
+/// numbered differently.
 pub fn same_cells(source: &RingBasis, target: &RingBasis) -> Option<Vec<usize>> {
     if source.len() != target.len() {
         return None;

@@ -1,81 +1,80 @@
-//! A hemisphere cut into rings about the normal and each ring into equal azimuth sectors.
+//! Ring bases: the hemisphere divided into rings about the normal and each ring into equal azimuth sectors.
 //!
-//! The weight of a cell is its projected solid angle ∫cosθ dω, never Ω·cosθ at the centre, so that the cells of
-//! every complete basis sum to π exactly.
+//! The weight of a cell is its projected solid angle ∫cosθ dω, never Ω·cosθ at the centre, so that the weights of every
+//! complete basis add up to exactly π.
 
 use crate::compute::angle::wrap_two_pi;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// Map from the azimuths of a basis to those of the façade frame: φ_F = sign · φ_own + offset.
+/// Conversion from the azimuths φ_own of a basis to those of the façade frame: φ_F = `sign` · φ_own + `offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AzimuthMap {
-    /// Sense of rotation, +1 or −1.
+    /// Sense of rotation of the basis's azimuths relative to the façade frame, +1 or −1.
     pub sign: f64,
-    /// Façade azimuth of the basis's azimuth 0. \[rad\]
+    /// Azimuth in the façade frame of the basis's azimuth 0. \[rad\]
     pub offset: f64,
 }
 
 impl AzimuthMap {
-    /// Azimuth of the façade frame: counter-clockwise seen from outside, 0 = right. Definition of the frame, see
-    /// [`crate::compute::direction`].
+    /// Azimuths of the façade frame itself: counter-clockwise seen from outside, 0 = right. Definition of the frame,
+    /// see [`crate::compute::direction`].
     pub const FACADE: Self = Self { sign: 1.0, offset: 0.0 };
-    /// Klems azimuth of the travelling light seen from the room (0 = right, 90 = up), for light from outside: the
-    /// through direction has φ_F = −φ_Klems. Convention of WINDOW and Radiance, whose BSDF frame has x to the right, y
-    /// up and z into the room.
+    /// Klems azimuths for light from outside: azimuth of the direction of propagation seen from the room (0 = right, 90
+    /// = up); the direction of undeviated light (reversed direction of propagation) has φ_F = −φ_Klems. Convention of
+    /// WINDOW and Radiance, whose BSDF frame has x to the right, y up and z into the room.
     pub const KLEMS_FRONT: Self = Self { sign: -1.0, offset: 0.0 };
-    /// Klems azimuth of the travelling light seen from the room, for light from inside: φ_F = 180° − φ_Klems.
-    /// Convention as for [`Self::KLEMS_FRONT`].
+    /// Klems azimuths for light from inside: azimuth of the direction of propagation seen from the room, φ_F = 180° −
+    /// φ_Klems. Convention of WINDOW and Radiance.
     pub const KLEMS_BACK: Self = Self { sign: -1.0, offset: PI };
 
-    /// Returns the façade azimuth of an azimuth of the basis. \[rad\]
+    /// Returns the azimuth in the façade frame of an azimuth `own` of the basis, 0 ≤ φ < 2π. \[rad\]
     pub fn facade_phi(self, own: f64) -> f64 {
         wrap_two_pi(self.sign * own + self.offset)
     }
 
-    /// Returns the azimuth of the basis for a façade azimuth. \[rad\]
+    /// Returns the azimuth of the basis for an azimuth of the façade frame, 0 ≤ φ < 2π. \[rad\]
     pub fn own_phi(self, facade: f64) -> f64 {
         wrap_two_pi(self.sign * (facade - self.offset))
     }
 }
 
-/// Ring from `theta_min` to `theta_max` in `sectors` equal parts, the first centred on the basis's azimuth `first_phi`.
-/// \[rad\]
+/// Ring of a basis: all directions between two polar angles, divided into equal azimuth sectors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ring {
-    /// Inner polar angle. \[rad\]
+    /// Polar angle of the ring's inner border, from the normal. \[rad\]
     pub theta_min: f64,
-    /// Outer polar angle. \[rad\]
+    /// Polar angle of the ring's outer border, from the normal. \[rad\]
     pub theta_max: f64,
-    /// Number of equal azimuth sectors, at least 1.
+    /// Number of equal azimuth sectors of the ring, at least 1.
     pub sectors: usize,
-    /// Azimuth of the first sector's centre, as the basis counts it. \[rad\]
+    /// Azimuth of the first sector's centre in the azimuths of the basis. \[rad\]
     pub first_phi: f64,
 }
 
-/// Cell of a basis.
+/// Cell of a ring basis: the directions between two polar angles within one azimuth sector.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// Inner polar angle. \[rad\]
+    /// Polar angle of the cell's inner border, from the normal. \[rad\]
     pub theta_min: f64,
-    /// Outer polar angle. \[rad\]
+    /// Polar angle of the cell's outer border, from the normal. \[rad\]
     pub theta_max: f64,
-    /// Azimuth of the centre, as the basis counts it. \[rad\]
+    /// Azimuth of the cell's centre in the azimuths of the basis. \[rad\]
     pub phi_own: f64,
-    /// Azimuth of the centre in the façade frame. \[rad\]
+    /// Azimuth of the cell's centre in the façade frame. \[rad\]
     pub phi: f64,
-    /// Width in azimuth. \[rad\]
+    /// Width of the cell in azimuth. \[rad\]
     pub width: f64,
 }
 
 impl Cell {
-    /// Returns the projected solid angle ∫cosθ dω. \[sr\]
+    /// Returns the projected solid angle ∫cosθ dω of the cell. \[sr\]
     pub fn projected_solid_angle(&self) -> f64 {
         // sin²b − sin²a = sin(b−a)·sin(b+a), without cancellation for thin rings.
         0.5 * self.width * (self.theta_max - self.theta_min).sin() * (self.theta_max + self.theta_min).sin()
     }
 
-    /// Returns the solid angle. \[sr\]
+    /// Returns the solid angle of the cell. \[sr\]
     pub fn solid_angle(&self) -> f64 {
         // cos a − cos b = 2 sin((a+b)/2) sin((b−a)/2)
         2.0 * self.width
@@ -83,24 +82,25 @@ impl Cell {
             * (0.5 * (self.theta_max - self.theta_min)).sin()
     }
 
-    /// Returns the polar angle that represents the cell: 0 for a cap around the normal, else the middle of the ring.
+    /// Returns the polar angle of the cell's centre: 0 for a cap around the normal, otherwise the middle of the ring.
     /// \[rad\]
     pub fn theta(&self) -> f64 {
         if self.is_cap() { 0.0 } else { 0.5 * (self.theta_min + self.theta_max) }
     }
 
-    /// Returns the direction that represents the cell (through direction, façade frame).
+    /// Returns the direction of the cell's centre in the façade frame. For emergent cells it is the direction of
+    /// undeviated light, the reversed emergent direction.
     pub fn centre(&self) -> Dir<Facade> {
         Dir::from_theta_phi(self.theta(), self.phi)
     }
 
-    /// Whether the cell is a cap: it reaches the normal and extends over the full azimuth.
+    /// Whether the cell is a cap around the normal, with the full azimuth.
     pub fn is_cap(&self) -> bool {
         self.theta_min == 0.0 && self.width > 1.99 * PI
     }
 }
 
-/// Reason why a list of rings does not divide the hemisphere.
+/// Error of a list of rings that does not divide the hemisphere.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BasisError {
     /// Empty list of rings.
@@ -109,38 +109,43 @@ pub enum BasisError {
     /// Polar angles outside 0 … 90° or not rising, or rings that overlap.
     #[error("ring {ring}: polar angles {from}° to {to}° do not rise within 0…90° after the ring before")]
     Limits {
-        /// Number of the ring, from 0.
+        /// Index of the ring, from 0.
         ring: usize,
-        /// Inner limit in degrees.
+        /// Inner polar angle of the ring. \[°\]
         from: f64,
-        /// Outer limit in degrees.
+        /// Outer polar angle of the ring. \[°\]
         to: f64,
     },
-    /// Number of sectors that is 0, or more than any instrument resolves.
+    /// Number of azimuth sectors of a ring that is 0 or above 7200.
     #[error("ring {ring}: {sectors} azimuth sectors (allowed: 1 to 7200)")]
     Sectors {
-        /// Number of the ring, from 0.
+        /// Index of the ring, from 0.
         ring: usize,
         /// Number of sectors of the ring.
         sectors: usize,
     },
 }
 
-/// Hemisphere divided into rings of equal sectors; cells are numbered ring by ring, azimuth of the basis rising.
+/// Basis of cells: the hemisphere divided into rings of equal azimuth sectors. Cells are numbered ring by ring, within
+/// a ring by rising azimuth of the basis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RingBasis {
     name: String,
     rings: Vec<Ring>,
     first_cell: Vec<usize>,
     azimuth: AzimuthMap,
-    /// Whether rings run from the normal outwards (θ rising); otherwise from the grazing ring inwards, as Tregenza rows
-    /// do.
+    /// Whether rings run from the normal outwards (θ rising); otherwise from the most grazing ring inwards, like
+    /// Tregenza's rows.
     outwards: bool,
 }
 
 impl RingBasis {
-    /// Creates a basis from rings in its own order, θ rising or falling throughout. Gaps are allowed (cells not covered
-    /// are zero).
+    /// Creates a basis from rings in the order of their cells, θ rising or falling throughout. Gaps between rings are
+    /// allowed (data are 0 there).
+    ///
+    /// # Errors
+    /// Returns an error if there are no rings, if polar angles leave 0 … 90° or overlap, or if a ring has 0 or more
+    /// than 7200 sectors.
     pub fn new(name: impl Into<String>, rings: Vec<Ring>, azimuth: AzimuthMap) -> Result<Self, BasisError> {
         let (Some(first), Some(last)) = (rings.first(), rings.last()) else {
             return Err(BasisError::Empty);
@@ -190,7 +195,7 @@ impl RingBasis {
         Self::new(name, rings, azimuth).expect("the tables of this file are divisions of the hemisphere")
     }
 
-    /// Creates the LBNL/Klems Full basis, 145 cells.
+    /// Creates the LBNL/Klems Full basis of 145 cells with the given azimuth convention.
     pub fn klems_full(azimuth: AzimuthMap) -> Self {
         Self::from_limits(
             "LBNL/Klems Full",
@@ -200,7 +205,7 @@ impl RingBasis {
         )
     }
 
-    /// Creates the LBNL/Klems Half basis, 73 cells.
+    /// Creates the LBNL/Klems Half basis of 73 cells with the given azimuth convention.
     pub fn klems_half(azimuth: AzimuthMap) -> Self {
         Self::from_limits(
             "LBNL/Klems Half",
@@ -210,13 +215,13 @@ impl RingBasis {
         )
     }
 
-    /// Creates the LBNL/Klems Quarter basis, 41 cells.
+    /// Creates the LBNL/Klems Quarter basis of 41 cells with the given azimuth convention.
     pub fn klems_quarter(azimuth: AzimuthMap) -> Self {
         Self::from_limits("LBNL/Klems Quarter", &[0.0, 9.0, 27.0, 46.0, 66.0, 90.0], &[1, 8, 12, 12, 8], azimuth)
     }
 
-    /// Creates Tregenza's 145 patches on the façade: rows at θ = 84, 72, …, 12, lowest (most grazing) first, then the
-    /// normal; bands of 12°, the cap 6° in radius.
+    /// Creates Tregenza's 145 patches as a basis about the façade's normal: rows at θ = 84, 72, …, 12°, the most
+    /// grazing first, then a cap around the normal; rows are 12° high, the cap has a radius of 6°.
     pub fn tregenza() -> Self {
         Self::from_limits_falling(
             "Tregenza 145",
@@ -239,9 +244,9 @@ impl RingBasis {
         Self::new(name, rings, AzimuthMap::FACADE).expect("the tables of this file are divisions of the hemisphere")
     }
 
-    /// Creates rings of cells of equal projected solid angle: sinθ in steps of 1/`rings`, ring i (from 1) in 8i − 4
-    /// sectors. These are the cells of a (2·rings)² grid on the square that Shirley–Chiu maps to the disk, with the
-    /// skew of its azimuth borders straightened.
+    /// Creates a basis of cells of equal projected solid angle: sinθ in steps of 1/`rings`, ring i (from 1) with 8i − 4
+    /// sectors. These are the cells of a (2·`rings`)² grid on the square that Shirley and Chiu map to the disk, with
+    /// straightened azimuth borders.
     pub fn equal_area(rings: usize) -> Self {
         let list = (1..=rings)
             .map(|i| {
@@ -258,8 +263,9 @@ impl RingBasis {
             .expect("sines in equal steps rise from 0 to 1")
     }
 
-    /// Creates rings of about `step` \[rad\] (a whole number of them) in cells about as wide as high, with a cap at the
-    /// normal. Sectors come in fours, so that the basis is the same upside down and mirrored.
+    /// Creates a basis of rings of about `step` \[rad\] (a whole number of them) with cells about as wide as high, and
+    /// a cap at the normal. The number of sectors is a multiple of four, so that the basis is symmetric up and down,
+    /// left and right.
     pub fn even(step: f64) -> Self {
         let rings = ((0.5 * PI / step).round() as usize).clamp(1, 900);
         let step = 0.5 * PI / rings as f64;
@@ -278,8 +284,8 @@ impl RingBasis {
         Self::from_limits("hemisphere", &[0.0, 90.0], &[1], AzimuthMap::FACADE)
     }
 
-    /// Returns a finer basis with every cell cut into `parts` × `parts`: rings in equal steps of θ, sectors in equal
-    /// parts. A cap that is one cell gets four sectors per part, so that its parts are about as wide as high.
+    /// Returns a finer basis with every cell divided into `parts` × `parts`: rings in equal steps of θ, sectors in
+    /// equal parts. A cap that is one cell is given four sectors per part, so that its parts are about as wide as high.
     pub fn refined(&self, parts: usize) -> Self {
         let cut = |ring: &Ring| {
             let step = (ring.theta_max - ring.theta_min) / parts as f64;
@@ -299,43 +305,43 @@ impl RingBasis {
         Self::new(format!("{} / {parts}²", self.name), rings, self.azimuth).expect("parts of rings rise as these do")
     }
 
-    /// Returns the name of the basis, as files write it.
+    /// Returns the name of the basis as written in files, e.g. `LBNL/Klems Full`.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns the rings, in the order of the basis.
+    /// Returns the rings in the order of the cells.
     pub fn rings(&self) -> &[Ring] {
         &self.rings
     }
 
-    /// Returns the map from the azimuths of the basis to those of the façade frame.
+    /// Returns the conversion from the azimuths of the basis to those of the façade frame.
     pub fn azimuth(&self) -> AzimuthMap {
         self.azimuth
     }
 
-    /// Returns a copy with the same cells and another azimuth map.
+    /// Returns the basis with the same rings and another azimuth convention.
     pub fn with_azimuth(mut self, azimuth: AzimuthMap) -> Self {
         self.azimuth = azimuth;
         self
     }
 
-    /// Returns the number of cells.
+    /// Returns the number of cells of the basis.
     pub fn len(&self) -> usize {
         self.first_cell[self.rings.len()]
     }
 
-    /// Whether the basis has no cells; never for a basis that was built.
+    /// Whether the basis has no cells; always `false` for a valid basis.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Returns the index of a ring's first cell.
+    /// Returns the index of the first cell of the ring with index `ring`.
     pub fn first_cell(&self, ring: usize) -> usize {
         self.first_cell[ring]
     }
 
-    /// Returns the cell of an index. Panics beyond [`Self::len`].
+    /// Returns the cell with this index. Panics if there is none.
     pub fn cell(&self, index: usize) -> Cell {
         let ring_index = self.first_cell.partition_point(|&first| first <= index) - 1;
         let ring = &self.rings[ring_index];
@@ -350,12 +356,12 @@ impl RingBasis {
         }
     }
 
-    /// Returns all cells in order.
+    /// Returns all cells of the basis in order.
     pub fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         (0..self.len()).map(|index| self.cell(index))
     }
 
-    /// Returns the projected solid angles of all cells, in order. \[sr\]
+    /// Returns the projected solid angles ∫cosθ dω of all cells, in order. \[sr\]
     pub fn projected_solid_angles(&self) -> Vec<f64> {
         // The same for all cells of a ring.
         let rings = self.rings.iter().zip(&self.first_cell);
@@ -364,9 +370,9 @@ impl RingBasis {
             .collect()
     }
 
-    /// Returns the index of the cell that holds a direction (through direction, façade frame). Borders belong to the
-    /// cell with the larger θ and the larger azimuth of the basis; `None` for directions with z < 0 and in gaps between
-    /// rings.
+    /// Returns the index of the cell that contains a direction of the façade frame; for emergent cells it is the
+    /// direction of undeviated light, the reversed emergent direction. Borders belong to the cell with the larger θ and
+    /// the larger azimuth of the basis; `None` for directions with z < 0 and in gaps between rings.
     pub fn index(&self, d: Dir<Facade>) -> Option<usize> {
         let theta = d.theta();
         if theta > PI / 2.0 + 1e-12 {

@@ -1,8 +1,9 @@
-//! The unit square that Shirley and Chiu map to the disk of direction cosines: equal areas of the square are equal
-//! projected solid angles, so every cell of a grid on it weighs π/resolution².
+//! Square grids of tensor trees: the unit square that Shirley and Chiu map to the disk of direction cosines. Equal
+//! areas of the square are equal projected solid angles, so that every cell of a grid on it has a projected solid angle
+//! of π/resolution².
 //!
-//! In the façade frame the square's first coordinate runs with x (right), the second with y (up); (0.5, 0.5) is the
-//! normal. Concentric square frames map to concentric rings, which is why a grid of 2n × 2n cells can be resampled
+//! In the façade frame the square's first coordinate increases with x (right), the second with y (up); (0.5, 0.5) is
+//! the normal. Concentric square frames map to concentric rings, which is why a grid of 2n × 2n cells can be resampled
 //! to [`RingBasis::equal_area`]`(n)` ring by ring without any change in θ.
 //!
 //! References: P. Shirley and K. Chiu, "A low distortion map between disk and square", JGT 2(3), 1997; the centre
@@ -14,10 +15,11 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-/// Maximum level of a grid: 2⁹ = 512 cells along a side. Chosen: limit of input; deeper trees are refused.
+/// Maximum level of a square grid: 2⁹ = 512 cells along a side. Chosen: limit of input; deeper trees are refused.
 pub const MAX_LEVEL: u32 = 9;
 
-/// Returns the point of the unit disk for a point of the unit square.
+/// Returns the point of the unit disk (direction cosines) for a point of the unit square by the map of Shirley and
+/// Chiu.
 pub fn disk_from_square([x, y]: [f64; 2]) -> [f64; 2] {
     let (a, b) = (2.0 * x - 1.0, 2.0 * y - 1.0);
     if a == 0.0 && b == 0.0 {
@@ -28,7 +30,8 @@ pub fn disk_from_square([x, y]: [f64; 2]) -> [f64; 2] {
     [r * phi.cos(), r * phi.sin()]
 }
 
-/// Returns the point of the unit square for a point of the unit disk; the inverse of [`disk_from_square`].
+/// Returns the point of the unit square for a point of the unit disk (direction cosines); the inverse of
+/// [`disk_from_square`].
 pub fn square_from_disk([x, y]: [f64; 2]) -> [f64; 2] {
     // Radiance shrinks its disk by 1e-13, so that a direction on a border belongs to the cell farther out.
     const HALF: f64 = 0.5 / 0.999_999_999_999_9;
@@ -44,53 +47,53 @@ pub fn square_from_disk([x, y]: [f64; 2]) -> [f64; 2] {
     [(a * HALF + 0.5).clamp(0.0, 1.0), (b * HALF + 0.5).clamp(0.0, 1.0)]
 }
 
-/// Grid of 2^level × 2^level cells of equal projected solid angle, in the façade frame by through direction. Cells are
-/// numbered row by row: index = iy · resolution + ix, x running fastest.
+/// Grid of 2^level × 2^level cells of equal projected solid angle over the hemisphere of the façade frame, for incident
+/// directions and reversed emergent directions. Cells are numbered row by row: index = iy · resolution + ix.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SquareGrid {
     level: u32,
 }
 
 impl SquareGrid {
-    /// Creates a grid of 2^level cells along a side; `None` unless 1 ≤ level ≤ [`MAX_LEVEL`].
+    /// Creates a grid with 2^`level` cells along a side; `None` unless 1 ≤ `level` ≤ [`MAX_LEVEL`].
     pub const fn new(level: u32) -> Option<Self> {
         if level >= 1 && level <= MAX_LEVEL { Some(Self { level }) } else { None }
     }
 
-    /// Returns log₂ of the resolution.
+    /// Returns the level of the grid: log₂ of the number of cells along a side.
     pub const fn level(self) -> u32 {
         self.level
     }
 
-    /// Returns the number of cells along one side.
+    /// Returns the number of cells along one side of the grid.
     pub const fn resolution(self) -> usize {
         1 << self.level
     }
 
-    /// Returns the number of cells, never 0.
+    /// Returns the number of cells of the grid, never 0.
     #[allow(clippy::len_without_is_empty, reason = "it never is")]
     pub const fn len(self) -> usize {
         self.resolution() * self.resolution()
     }
 
-    /// Returns the projected solid angle ∫cosθ dω of every cell. \[sr\]
+    /// Returns the projected solid angle ∫cosθ dω of each cell, the same for all. \[sr\]
     pub fn projected_solid_angle(self) -> f64 {
         PI / self.len() as f64
     }
 
-    /// Returns the cell of an index. Panics beyond [`Self::len`].
+    /// Returns the cell with this index. Panics if there is none.
     pub fn cell(self, index: usize) -> SquareCell {
         assert!(index < self.len(), "cell {index} of {}", self.len());
         SquareCell { ix: index % self.resolution(), iy: index / self.resolution(), resolution: self.resolution() }
     }
 
-    /// Returns all cells in order.
+    /// Returns all cells of the grid, row by row.
     pub fn cells(self) -> impl Iterator<Item = SquareCell> {
         (0..self.len()).map(move |index| self.cell(index))
     }
 
-    /// Returns the index of the cell that holds a direction; `None` for z < 0. Borders belong to the cell farther from
-    /// the normal.
+    /// Returns the index of the cell that contains a direction of the façade frame; `None` for z < 0. Borders belong to
+    /// the cell farther from the normal.
     pub fn index(self, d: Dir<Facade>) -> Option<usize> {
         let v = d.vector();
         if v.z < -1e-12 {
@@ -100,18 +103,19 @@ impl SquareGrid {
         Some(iy * self.resolution() + ix)
     }
 
-    /// Returns column and row of the cell that holds a point of the disk.
+    /// Returns column and row of the cell that contains a point of the unit disk.
     pub(crate) fn position(self, disk: [f64; 2]) -> [usize; 2] {
         square_from_disk(disk).map(|s| ((s * self.resolution() as f64) as usize).min(self.resolution() - 1))
     }
 
-    /// Returns rings of the same cells with the skew of their azimuth borders straightened: [`RingBasis::equal_area`].
+    /// Returns the ring basis of the same cells with straightened azimuth borders: [`RingBasis::equal_area`].
     pub fn rings(self) -> RingBasis {
         RingBasis::equal_area(self.resolution() / 2)
     }
 
-    /// Resamples cell values to [`Self::rings`]. Sums are kept ring by ring exactly, and since all cells of both are
-    /// equally large, this serves means (luminance, q) and totals (illuminance, flux) alike.
+    /// Returns values on the cells of the grid, resampled to those of [`Self::rings`]. Sums over each ring are exactly
+    /// conserved. Because all cells have the same projected solid angle, it may be used for means (luminance, q) and
+    /// for totals (illuminance, flux).
     pub fn to_rings(self, values: &[f64]) -> Vec<f64> {
         assert_eq!(values.len(), self.len(), "one value a cell");
         let mut out = vec![0.0; self.len()];
@@ -121,7 +125,7 @@ impl SquareGrid {
         out
     }
 
-    /// Returns the shares of square cells in ring cells, computed once for every resolution.
+    /// Returns the shares of square cells in ring cells, computed once for each resolution.
     fn shares(self) -> Arc<Vec<Share>> {
         static KEPT: [OnceLock<Arc<Vec<Share>>>; MAX_LEVEL as usize + 1] =
             [const { OnceLock::new() }; MAX_LEVEL as usize + 1];
@@ -129,7 +133,7 @@ impl SquareGrid {
     }
 }
 
-/// Share of a square cell that lies in a ring cell.
+/// Share of a square cell that lies in a cell of the ring basis.
 #[derive(Debug, Clone, Copy)]
 struct Share {
     cell: u32,
@@ -137,7 +141,7 @@ struct Share {
     fraction: f64,
 }
 
-/// Computes the shares of square cells in ring cells: by midpoints along the thickness of a square frame, exactly along
+/// Computes the shares of square cells in ring cells: by midpoints across each concentric square frame, exactly along
 /// its azimuth.
 fn shares(resolution: usize) -> Vec<Share> {
     // Number of midpoints across the thickness of a frame. Chosen: cost; sums of rings and uniform values are exact
@@ -186,7 +190,7 @@ fn shares(resolution: usize) -> Vec<Share> {
     all
 }
 
-/// Cell of a [`SquareGrid`].
+/// Cell of a square grid over the hemisphere ([`SquareGrid`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SquareCell {
     ix: usize,
@@ -195,30 +199,32 @@ pub struct SquareCell {
 }
 
 impl SquareCell {
-    /// Returns column (along x) and row (along y).
+    /// Returns column (along x) and row (along y) of the cell in the grid, from 0.
     pub const fn position(self) -> [usize; 2] {
         [self.ix, self.iy]
     }
 
-    /// Returns lower corner and side length on the unit square.
+    /// Returns the lower corner and the side length of the cell on the unit square.
     pub fn bounds(self) -> ([f64; 2], f64) {
         let side = 1.0 / self.resolution as f64;
         ([self.ix as f64 * side, self.iy as f64 * side], side)
     }
 
-    /// Returns the direction at a point of the cell, coordinates 0 … 1 inside it (façade frame, through direction).
+    /// Returns the direction, façade frame, at a point of the cell given by coordinates 0 … 1 inside it. For emergent
+    /// cells it is the reversed emergent direction.
     pub fn direction(self, at: [f64; 2]) -> Dir<Facade> {
         let ([x, y], side) = self.bounds();
         let [x, y] = disk_from_square([x + at[0] * side, y + at[1] * side]);
         Dir::from_unit(DVec3::new(x, y, (1.0 - x * x - y * y).max(0.0).sqrt()))
     }
 
-    /// Returns the direction in the middle of the cell.
+    /// Returns the direction in the middle of the cell, façade frame.
     pub fn centre(self) -> Dir<Facade> {
         self.direction([0.5, 0.5])
     }
 
-    /// Returns n × n directions, each representing the same share of the cell's projected solid angle. `n` ≥ 1.
+    /// Returns `n` × `n` directions of the façade frame, each of which represents the same share of the cell's
+    /// projected solid angle. `n` ≥ 1.
     pub fn samples(self, n: usize) -> impl Iterator<Item = Dir<Facade>> {
         (0..n * n).map(move |k| self.direction([((k % n) as f64 + 0.5) / n as f64, ((k / n) as f64 + 0.5) / n as f64]))
     }

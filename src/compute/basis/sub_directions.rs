@@ -1,9 +1,10 @@
-//! Directions that represent a cell.
+//! Directions that represent a cell of a ring basis.
 
 use super::rings::Cell;
 use crate::compute::direction::{Dir, Facade};
 
-/// Returns `n` × `n` directions that share a cell's projected solid angle equally (midpoints in sin²θ and φ).
+/// Returns `n` × `n` directions of the façade frame, each of which represents the same share of a cell's projected
+/// solid angle (midpoints in sin²θ and φ).
 pub fn sub_directions(cell: &Cell, n: usize) -> impl Iterator<Item = Dir<Facade>> {
     let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     let (phi, width) = (cell.phi, cell.width);

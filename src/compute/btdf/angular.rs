@@ -1,34 +1,36 @@
-//! Transmittance that depends on the polar angle of incidence alone.
+//! Transmittance (or reflectance) that depends on the polar angle of incidence θ alone.
 
 use std::f64::consts::PI;
 
-/// τ(θ) for rotationally symmetric systems: a constant, or a table over equal steps of θ from 0 to 90°.
+/// Transmittance (or reflectance) τ as a function of the polar angle of incidence θ: a constant, or a table over equal
+/// steps of θ from 0 to 90°.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AngularTransmittance {
-    /// Constant transmittance for every incidence.
+    /// Transmittance that is the same for every angle of incidence.
     Constant(f64),
-    /// Values at θ = 0 … 90° in equal steps, at least two; between them piecewise cubic, never beyond the values
-    /// at both sides.
+    /// Transmittances at θ = 0 … 90° in equal steps, at least two; interpolated by a piecewise cubic that does not
+    /// exceed the neighbouring values.
     Table(Vec<f64>),
-    /// Values estimated from other data, such as means over patches; all at 0, 1 … 90°.
+    /// Transmittances estimated from other data, such as means over patches, with their uncertainties; all at θ = 0, 1
+    /// … 90°.
     Estimated {
         /// Transmittances, interpolated like those of a table.
         tau: Vec<f64>,
-        /// Uncertainty of each value by itself.
+        /// Uncertainty of each single transmittance.
         uncertainty: Vec<f64>,
-        /// Independent deviations of all values, signed, whose effects on a sum add up in quadrature: what is too much
-        /// at one angle is too little at another.
+        /// Independent signed deviations of all transmittances, whose effects on a sum over angles add up in
+        /// quadrature: too large values at some angles are correlated with too small values at others.
         modes: Vec<Vec<f64>>,
     },
 }
 
 impl AngularTransmittance {
-    /// Creates a table of a function of θ \[rad\] at `steps` + 1 angles. `steps` ≥ 1.
+    /// Creates a table from a function of θ \[rad\], at `steps` + 1 angles from 0 to 90°. `steps` ≥ 1.
     pub fn sample(steps: usize, tau: impl Fn(f64) -> f64) -> Self {
         Self::Table((0..=steps).map(|i| tau(0.5 * PI * i as f64 / steps as f64)).collect())
     }
 
-    /// Returns the transmittance with all values multiplied by `factor`.
+    /// Returns the function with all transmittances multiplied by `factor`.
     pub fn scaled(&self, factor: f64) -> Self {
         let all = |values: &[f64]| values.iter().map(|value| factor * value).collect();
         match self {
@@ -41,17 +43,18 @@ impl AngularTransmittance {
         }
     }
 
-    /// Returns τ if it is the same for every incidence.
+    /// Returns the transmittance if it is the same for every angle of incidence; otherwise `None`.
     pub const fn constant(&self) -> Option<f64> {
         if let Self::Constant(tau) = self { Some(*tau) } else { None }
     }
 
-    /// Returns the uncertainty of τ at a polar angle of incidence \[rad\]; 0 unless it is estimated.
+    /// Returns the uncertainty of τ at the angle of incidence `theta` \[rad\]; 0 unless τ is estimated from other data.
     pub fn uncertainty(&self, theta: f64) -> f64 {
         if let Self::Estimated { uncertainty, .. } = self { table_at(uncertainty, theta) } else { 0.0 }
     }
 
-    /// Returns the uncertainty of the transmitted light, given the incident light by degrees of θ, in its unit.
+    /// Returns the uncertainty of the sum of transmitted light (illuminance, flux) from the incident light in each
+    /// degree of θ, in the unit of `incident`.
     pub fn uncertainty_of_light(&self, incident: &[f64; 90]) -> f64 {
         let Self::Estimated { modes, .. } = self else { return 0.0 };
         let of = |mode: &Vec<f64>| {
@@ -61,12 +64,12 @@ impl AngularTransmittance {
         modes.iter().map(|mode| of(mode).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// Whether the values are estimated from other data.
+    /// Whether the transmittances are estimated from other data and have uncertainties.
     pub const fn is_estimated(&self) -> bool {
         matches!(self, Self::Estimated { .. })
     }
 
-    /// Whether τ is 0 for every incidence.
+    /// Whether τ is 0 for every angle of incidence.
     pub fn is_dark(&self) -> bool {
         match self {
             Self::Constant(tau) => *tau == 0.0,
@@ -74,7 +77,7 @@ impl AngularTransmittance {
         }
     }
 
-    /// Returns τ at a polar angle of incidence \[rad\]; 0 beyond 90°.
+    /// Returns τ at the angle of incidence `theta` \[rad\]; 0 beyond 90°.
     pub fn at(&self, theta: f64) -> f64 {
         match self {
             Self::Constant(tau) => {
@@ -88,14 +91,14 @@ impl AngularTransmittance {
         }
     }
 
-    /// Returns the mean over the polar angles `from` … `to` \[rad\], weighted by projected solid angle. `rule`: nodes
-    /// and weights on 0 … 1, for sin²θ across the ring.
+    /// Returns the mean τ over the angles of incidence `from` … `to` \[rad\], weighted by projected solid angle.
+    /// `rule`: nodes and weights on 0 … 1 for the quadrature over sin²θ.
     pub fn ring_mean(&self, from: f64, to: f64, rule: &[(f64, f64)]) -> f64 {
         let (a, b) = (from.sin().powi(2), to.sin().powi(2));
         rule.iter().map(|(x, weight)| weight * self.at((a + (b - a) * x).sqrt().min(1.0).asin())).sum()
     }
 
-    /// Returns 2 ∫ τ(θ) sinθ cosθ dθ: transmittance under uniform luminance.
+    /// Returns the hemispherical transmittance 2 ∫ τ(θ) sinθ cosθ dθ, for light from a hemisphere of uniform luminance.
     pub fn hemispherical(&self) -> f64 {
         match self {
             Self::Constant(tau) => *tau,
@@ -108,8 +111,8 @@ impl AngularTransmittance {
     }
 }
 
-/// Interpolates equally spaced values by a monotone piecewise cubic (central slopes, limited after Fritsch and
-/// Carlson).
+/// Returns equally spaced values over 0 … 90° interpolated at `theta` \[rad\] by a monotone piecewise cubic (central
+/// slopes, limited after Fritsch and Carlson).
 fn table_at(values: &[f64], theta: f64) -> f64 {
     let last = values.len() - 1;
     let x = theta / (0.5 * PI) * last as f64;

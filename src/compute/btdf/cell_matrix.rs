@@ -1,4 +1,4 @@
-//! Scattering between the cells of two bases.
+//! Patch-averaged BTDF or BRDF: luminance coefficients between the cells of two bases.
 
 use super::rows::Rows;
 use crate::compute::basis::RingBasis;
@@ -8,25 +8,28 @@ use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// q for every pair of an incident and an emergent cell, stored as one indicatrix after the other.
+/// Patch-averaged BTDF or BRDF: the luminance coefficient q \[1/sr\] for every pair of an incident and an emergent
+/// cell, stored by incident cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellMatrix {
     incident: RingBasis,
     emergent: RingBasis,
     rows: Rows,
-    /// τ of each incident cell.
+    /// Directional-hemispherical transmittance τ of each incident cell.
     tau: Vec<f64>,
 }
 
 impl CellMatrix {
-    /// Creates a matrix from values in 1/sr, `values[i · emergent.len() + o]`, incident cell i, emergent cell o (by
-    /// through direction). `None` when the count does not fit the bases.
+    /// Creates a matrix from the luminance coefficients `values[i · emergent.len() + o]` \[1/sr\] of incident cell i
+    /// and emergent cell o; emergent cells contain reversed emergent directions. `None` if the number of values does
+    /// not fit the bases.
     pub fn new(incident: RingBasis, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
     }
 
-    /// Creates a matrix like [`Self::new`], from values that were kept as f32.
+    /// Creates a matrix like [`Self::new`] from luminance coefficients in single precision \[1/sr\]. `None` if the
+    /// number of values does not fit the bases.
     pub fn of_single(incident: RingBasis, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
@@ -37,8 +40,8 @@ impl CellMatrix {
         Some(Self { incident, emergent, rows, tau })
     }
 
-    /// Creates a matrix from indicatrices in compact form, one per incident cell; they stay compact, and τ is what they
-    /// keep. `None` when the count does not fit.
+    /// Creates a matrix from indicatrices compressed by wavelets, one per incident cell; they remain compressed, with
+    /// the exact τ stored in them. `None` if their number is not that of the incident cells.
     pub fn from_compact(incident: RingBasis, rows: Arc<CompactRows>) -> Option<Self> {
         (rows.len() == incident.len()).then(|| {
             let tau = (0..rows.len()).map(|row| rows.tau(row)).collect();
@@ -46,53 +49,55 @@ impl CellMatrix {
         })
     }
 
-    /// Returns the data in compact form: τ is kept, everything else as well as the criterion says.
+    /// Returns the matrix compressed by wavelets: τ is exact, the errors of q are within `criterion`.
     ///
     /// # Errors
-    /// Returns an error if the values have no compact form.
+    /// Returns an error if the values cannot be compressed (negative or not finite, or too many cells) or the criterion
+    /// is invalid.
     pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
         let row = |i| self.row(i).into_owned();
         let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
         Ok(Self::from_compact(self.incident.clone(), Arc::new(rows)).expect("a row was made for every incident cell"))
     }
 
-    /// Returns the incident cells.
+    /// Returns the basis of the incident cells.
     pub fn incident(&self) -> &RingBasis {
         &self.incident
     }
 
-    /// Returns the emergent cells, by through direction.
+    /// Returns the basis of the emergent cells, which contain reversed emergent directions ω′ = −ω_a.
     pub fn emergent(&self) -> &RingBasis {
         &self.emergent
     }
 
-    /// Returns all values, one indicatrix after the other. \[1/sr\]
+    /// Returns the luminance coefficients q of all pairs of cells, `[i · emergent.len() + o]`. \[1/sr\]
     pub fn values(&self) -> Cow<'_, [f64]> {
         self.rows.all()
     }
 
-    /// Returns the indicatrix of one incident cell. \[1/sr\] It is made on request where the data are held in compact
-    /// form.
+    /// Returns the luminance coefficients q of one incident cell (by index) for every emergent cell. \[1/sr\]
+    /// Compressed data are restored for each call.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
         self.rows.row(incident, self.emergent.len())
     }
 
-    /// Returns one value, by incident cell and emergent cell. \[1/sr\]
+    /// Returns the luminance coefficient q for an incident and an emergent cell, both by index. \[1/sr\]
     pub fn value(&self, incident: usize, emergent: usize) -> f64 {
         self.rows.value(incident, emergent, self.emergent.len())
     }
 
-    /// Returns the compact form, where the data are held in it.
+    /// Returns the indicatrices compressed by wavelets; `None` if the data are not compressed.
     pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
         self.rows.compact()
     }
 
-    /// Returns the directional-hemispherical transmittance of every incident cell, in the basis's order.
+    /// Returns the directional-hemispherical transmittance of every incident cell, in the order of the basis.
     pub fn tau_by_cell(&self) -> &[f64] {
         &self.tau
     }
 
-    /// Returns q of the cells that hold the two directions; 0 outside all cells. \[1/sr\]
+    /// Returns the luminance coefficient q of the cells that contain an incident and an emergent direction; 0 outside
+    /// all cells. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
             (Some(i), Some(o)) => self.value(i, o),
@@ -100,18 +105,19 @@ impl CellMatrix {
         }
     }
 
-    /// Returns the directional-hemispherical transmittance of the cell that holds the direction.
+    /// Returns the directional-hemispherical transmittance of the cell that contains an incident direction; 0 outside
+    /// all cells.
     pub fn tau(&self, incident: Incident) -> f64 {
         self.incident.index(incident.0).map_or(0.0, |i| self.tau[i])
     }
 
-    /// Returns the transmittance for uniform luminance.
+    /// Returns the hemispherical transmittance, for light from a hemisphere of uniform luminance.
     pub fn tau_hemispherical(&self) -> f64 {
         self.incident.cells().zip(&self.tau).map(|(cell, tau)| cell.projected_solid_angle() * tau).sum::<f64>() / PI
     }
 
-    /// Computes the luminance of every emergent cell from the illuminance that arrives through every incident cell (eq
-    /// 12). \[cd/m²\]
+    /// Computes the luminance in every emergent cell from the illuminance \[lx\] of the system from every incident cell
+    /// (eq 12). \[cd/m²\]
     pub fn luminance(&self, illuminance: &[f64]) -> Vec<f64> {
         assert_eq!(illuminance.len(), self.incident.len(), "one illuminance an incident cell");
         let mut luminance = vec![0.0; self.emergent.len()];
@@ -125,8 +131,9 @@ impl CellMatrix {
         luminance
     }
 
-    /// Returns the function for light in the opposite direction: q_back(ω′, ω_e) = q_front(ω_e, ω′), in through
-    /// directions a plain transpose. The 180° rotation that files need lies in the bases' azimuth maps.
+    /// Returns the transmission of light in the opposite direction by reciprocity, q_back(ω′, ω_e) = q_front(ω_e, ω′):
+    /// the transposed matrix, because emergent directions are stored reversed (ω′ = −ω_a). The 180° rotation of files
+    /// is part of the azimuth conventions of the bases.
     pub fn reversed(&self) -> Self {
         let (n_in, n_out) = (self.incident.len(), self.emergent.len());
         let given = self.values();

@@ -1,11 +1,12 @@
-//! Checks of a dataset against physics: energy and reciprocity.
+//! Physical checks of a dataset: conservation of energy and reciprocity.
 
 use super::{Btdf, Scattered};
 use crate::compute::direction::{Dir, Incident};
 
-/// Returns the mean relative difference between a front function and the back function turned round, weighted by the
-/// projected solid angles of both cells: Σ w|q_f − q_b| / Σ w(q_f + q_b)/2. `None` unless both are given on cells of
-/// the same directions, or as trees of the same rank.
+/// Returns the deviation from reciprocity between the transmission for light from outside and that for light from
+/// inside with exchanged directions: the mean relative difference Σ w|q_f − q_b| / Σ w(q_f + q_b)/2, weighted by the
+/// projected solid angles of both cells. `None` unless both are given on cells of the same directions, or as tensor
+/// trees of the same rank.
 pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     if let (Some(Scattered::Tree(front)), Some(Scattered::Tree(back))) = (&front.scattered, &back.scattered) {
         return front.relative_difference(&back.reversed());
@@ -19,7 +20,7 @@ pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     }
     let w_in = front.incident().projected_solid_angles();
     let w_out = front.emergent().projected_solid_angles();
-    // Back cells by the through-names of the front ones.
+    // Cells of the back side that contain the centres of the front's emergent and incident cells.
     let back_in: Vec<usize> =
         front.emergent().cells().map(|cell| back.incident().index(cell.centre())).collect::<Option<_>>()?;
     let back_out: Vec<usize> =
@@ -37,8 +38,8 @@ pub fn reciprocity_error(front: &Btdf, back: &Btdf) -> Option<f64> {
     Some(if sum > 0.0 { difference / sum } else { 0.0 })
 }
 
-/// Returns the largest directional-hemispherical transmittance of any incident cell, regular part included: more than 1
-/// breaks the conservation of energy.
+/// Returns the largest directional-hemispherical transmittance of any incident cell, regular transmission included; a
+/// value above 1 violates the conservation of energy.
 pub fn tau_max(btdf: &Btdf) -> f64 {
     let regular = |theta: f64| btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
     match &btdf.scattered {

@@ -1,8 +1,8 @@
-//! Photometric data of one state of one system.
+//! Dataset: BSDF data of one state of one system, with its source and findings.
 
 use super::{Btdf, DescribedState, Finding, Thermal};
 
-/// One of the four functions of a band.
+/// One of the four BTDFs and BRDFs of a spectral band, by side of incidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Component {
     /// Transmission of light from outside into the room.
@@ -16,11 +16,11 @@ pub enum Component {
 }
 
 impl Component {
-    /// All four functions, in the order of files and listings.
+    /// All four functions of a band, in the order of files and listings.
     pub const ALL: [Self; 4] =
         [Self::TransmissionFront, Self::TransmissionBack, Self::ReflectionFront, Self::ReflectionBack];
 
-    /// Returns the key used in JSON and in the catalogue.
+    /// Returns the key of the function in JSON and in the catalogue.
     pub const fn key(self) -> &'static str {
         match self {
             Self::TransmissionFront => "transmission_front",
@@ -30,7 +30,7 @@ impl Component {
         }
     }
 
-    /// Returns the name as files and messages write it.
+    /// Returns the English name of the function in files and messages.
     pub const fn words(self) -> &'static str {
         match self {
             Self::TransmissionFront => "Transmission Front",
@@ -40,7 +40,7 @@ impl Component {
         }
     }
 
-    /// Returns the function of the same kind for light from the other side.
+    /// Returns the function of the same kind (transmission or reflection) for light from the other side.
     pub const fn other_side(self) -> Self {
         match self {
             Self::TransmissionFront => Self::TransmissionBack,
@@ -50,18 +50,18 @@ impl Component {
         }
     }
 
-    /// Whether the function is a transmission, not a reflection.
+    /// Whether the function is a transmission; otherwise it is a reflection.
     pub const fn is_transmission(self) -> bool {
         matches!(self, Self::TransmissionFront | Self::TransmissionBack)
     }
 
-    /// Whether the function is that of light from outside.
+    /// Whether the function is for light from outside; otherwise for light from the room.
     pub const fn is_front(self) -> bool {
         matches!(self, Self::TransmissionFront | Self::ReflectionFront)
     }
 }
 
-/// Functions of one spectral band.
+/// BTDFs and BRDFs of one spectral band; `None` for functions that the source does not contain.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Band {
     /// Transmission of light from outside into the room.
@@ -75,7 +75,7 @@ pub struct Band {
 }
 
 impl Band {
-    /// Returns one of the four functions.
+    /// Returns one of the four functions; `None` if the band does not contain it.
     pub const fn get(&self, component: Component) -> Option<&Btdf> {
         match component {
             Component::TransmissionFront => self.transmission_front.as_ref(),
@@ -85,7 +85,7 @@ impl Band {
         }
     }
 
-    /// Returns the place of one of the four functions.
+    /// Returns the field of one of the four functions for modification.
     pub const fn place(&mut self, component: Component) -> &mut Option<Btdf> {
         match component {
             Component::TransmissionFront => &mut self.transmission_front,
@@ -95,54 +95,55 @@ impl Band {
         }
     }
 
-    /// Stores one of the four functions.
+    /// Sets one of the four functions.
     pub fn set(&mut self, component: Component, btdf: Btdf) {
         *self.place(component) = Some(btdf);
     }
 
-    /// Returns the functions that are present, in the order of [`Component::ALL`].
+    /// Returns which of the four functions the band contains, in the order of [`Component::ALL`].
     pub fn components(&self) -> Vec<Component> {
         Component::ALL.into_iter().filter(|&component| self.get(component).is_some()).collect()
     }
 }
 
-/// One state of one system: what a file holds, or what a closed form gives.
+/// Dataset of one state of one system: BSDF data read from a file or computed, with product data and findings.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Dataset {
-    /// Product name; may be empty.
+    /// Name of the product; may be empty.
     pub name: String,
-    /// Maker; may be empty.
+    /// Manufacturer of the product; may be empty.
     pub manufacturer: String,
-    /// Free text, e.g. the file's own comment on method and device.
+    /// Free text, e.g. the comment of the file on method and device.
     pub description: String,
-    /// Key of the state within a family; empty for a system without states.
+    /// Key of the state of the product; empty for a product with one state only.
     pub state: String,
-    /// Thickness of the system where it is known. \[m\]
+    /// Thickness of the system \[m\]; `None` if unknown.
     pub thickness: Option<f64>,
-    /// Period of the visible structure (pitch of slats or cuts) where it is known. \[m\]
+    /// Period of the visible structure (spacing of slats or cuts) \[m\]; `None` if unknown.
     pub structure: Option<f64>,
-    /// Thermal data and extents as far as the source gives them.
+    /// Thermal data and size of the sample, as far as the source specifies them.
     pub thermal: Thermal,
-    /// Format of the source file, e.g. `bsdf-xml klems`; empty for closed forms.
+    /// Format of the source file, e.g. `bsdf-xml klems`; empty for computed data.
     pub format: String,
-    /// Name of the incident basis as the file gives it.
+    /// Name of the incident basis in the source file.
     pub incident_basis: String,
-    /// Name of the emergent basis as the file gives it.
+    /// Name of the emergent basis in the source file.
     pub emergent_basis: String,
-    /// Visible band.
+    /// BTDFs and BRDFs of the visible band, weighted by V(λ).
     pub visible: Band,
-    /// Solar band, if the source has one.
+    /// BTDFs and BRDFs of the solar band; `None` if the source has none.
     pub solar: Option<Band>,
-    /// Components that were not in the file but derived (by reciprocity).
+    /// Functions that were not in the source but derived by reciprocity.
     pub derived: Vec<Component>,
-    /// Findings of the reader and of the checks.
+    /// Findings of the reader of the file and of the data checks.
     pub findings: Vec<Finding>,
-    /// Description that the dataset was computed from, where all of it is known; `None` for measured and repaired data.
+    /// Description of the system from which the dataset was computed, if it is complete; `None` for measured and
+    /// repaired data.
     pub described: Option<DescribedState>,
 }
 
 impl Dataset {
-    /// Returns the visible transmission of light from outside, the function that the whole method starts from.
+    /// Returns the visible transmission of light from outside; `None` if the dataset does not contain it.
     pub const fn transmission(&self) -> Option<&Btdf> {
         self.visible.transmission_front.as_ref()
     }

@@ -1,13 +1,14 @@
-//! Description that a dataset was computed from.
+//! Description of the system from which a dataset was computed.
 //!
-//! Cells resolve directions only as finely as they are; how a described system redirects a beam is computed again from
-//! its description, for any sun. Here it is text that goes with the data: nothing in `compute` reads it.
+//! The cells of a dataset blur beams to their size; from the description the redirection of beams can be computed again
+//! exactly, for any direction of the sun. Here the description is only text that is stored with the data: nothing in
+//! `compute` reads it.
 
-/// Description, and the state of it that a dataset holds.
+/// Description of a system, and the state of it that a dataset holds.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct DescribedState {
-    /// Text of a system file (`.system.toml`) that names no other files: a stack holds its layers itself.
+    /// Text of a system file (`.system.toml`) without references to other files: a stack contains its layers.
     pub text: String,
-    /// Key of the state within the description; empty for a system without states.
+    /// Key of the state in the description; empty for a system without states.
     pub state: String,
 }

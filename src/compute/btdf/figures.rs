@@ -1,5 +1,5 @@
-//! Figures by which states of systems are found and sorted, beside transmittances: share of the sky's light that leaves
-//! up to the ceiling, share of a high sun that is blocked, share of light that is transmitted undeviated.
+//! Figures for searching and sorting states of systems besides transmittances: share of the transmitted skylight that
+//! leaves upwards to the ceiling, share of a high sun that is blocked, share of light that is transmitted undeviated.
 //!
 //! All of them hold for a vertical façade and for light from outside.
 
@@ -10,40 +10,41 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::PI;
 
-/// Numbers of rings and sectors of the incident directions, of equal projected solid angle, that the upper
-/// quarter-sphere is summed on. Chosen: about four directions per Klems patch. Held by
-/// `tests/catalogue/builtin.rs::figures_computed_anew_are_those_of_the_table`, as all constants of these figures.
+/// Numbers of rings and sectors of incident directions, of equal projected solid angle, for sums over the upper
+/// quarter-sphere. Chosen: about four directions per Klems patch. Held by
+/// `tests/catalogue/builtin.rs::figures_computed_anew_are_those_of_the_table`, like all constants of these figures.
 const SKY: [usize; 2] = [12, 24];
-/// Number of points across a cell that the horizon cuts. Chosen: cost; even, so that a cell centred on the horizon is
-/// halved exactly.
+/// Number of points across a cell that the horizon divides. Chosen: cost; even, so that a cell centred on the horizon
+/// is halved exactly.
 const ACROSS: usize = 16;
-/// Share of transmitted light below which no direction is stated. Chosen: affects reporting only.
+/// Transmittance below which no share of upward light is stated. Chosen: affects reporting only.
 const DARK: f64 = 1e-6;
 /// Angle of incidence of the high sun. \[rad\] Definition of [`LightFigures::sun_blocked`]: 45°.
 const HIGH_SUN: f64 = 0.25 * PI;
-/// Ratio to its surroundings above which the straight cell stands out, as in Radiance's `aBSDF`.
+/// Ratio of q in the cell of undeviated light to that of its surroundings above which it counts as a peak. Source:
+/// Radiance's `aBSDF`.
 const STANDS_OUT: f64 = 1.5;
-/// Minimum width of the surroundings of the straight cell. \[rad\] Chosen: about two diameters of the sun (0.53° each);
-/// only cells of fine trees are narrower.
+/// Minimum width of the surroundings of the cell of undeviated light. \[rad\] Chosen: about two diameters of the sun
+/// (0.53° each); only cells of fine trees are narrower.
 const AROUND: f64 = 0.02;
 
-/// Figures of the light that a state transmits.
+/// Figures of the transmission of light from outside by one state of a system, for a vertical façade.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LightFigures {
-    /// Share of the transmitted light that leaves upwards into the room, 0 … 1, for light from the upper quarter-sphere
-    /// of a uniform sky (all directions above the horizontal); `None` where nothing is transmitted.
+    /// Share of the transmitted light that leaves upwards into the room, 0 … 1, for light from a uniform sky (all
+    /// directions above the horizontal); `None` if nothing is transmitted.
     pub to_ceiling: Option<f64>,
     /// Share of direct sun that is not transmitted, for the sun at 45° altitude, perpendicular to the façade in plan: 1
     /// − τ.
     pub sun_blocked: f64,
     /// Normal–normal (direct-direct) transmittance: share of light at normal incidence that is transmitted undeviated.
-    /// With patch-averaged data: the regular part where they keep one, and what stands out of the straight cell's
-    /// surroundings.
+    /// For patch-averaged data: the regular transmission if they have one, plus the excess of the cell of undeviated
+    /// light over its surroundings.
     pub view: f64,
 }
 
 impl LightFigures {
-    /// Computes the figures of a transmission for light from outside.
+    /// Computes the figures from the transmission of light from outside.
     pub fn of(btdf: &Btdf) -> Self {
         let sun = Incident(Dir::from_theta_phi(HIGH_SUN, 0.5 * PI));
         Self {
@@ -63,7 +64,7 @@ fn to_ceiling(btdf: &Btdf) -> Option<f64> {
         for sector in 0..SKY[1] {
             let phi = PI * (sector as f64 + 0.5) / SKY[1] as f64;
             let incident = Incident(Dir::from_theta_phi(theta, phi));
-            // Regular transmission comes from above and goes down.
+            // Undeviated light from above the horizon propagates downwards.
             all += btdf.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
             let [some, whole] = upward.flux(btdf, incident);
             up += some;
@@ -73,18 +74,19 @@ fn to_ceiling(btdf: &Btdf) -> Option<f64> {
     (all > DARK * (SKY[0] * SKY[1]) as f64).then(|| (up / all).clamp(0.0, 1.0))
 }
 
-/// Upward flux of the incident directions, with what can be reused from one direction to the next.
+/// Computation of the upward flux for incident directions, with quantities that are reused from one direction to the
+/// next.
 #[derive(Default)]
 struct Upward {
     basis: Option<RingBasis>,
-    /// Projected solid angle of the part of a cell whose light goes up, and of the whole cell. \[sr\]
+    /// Projected solid angle of the part of each cell whose light leaves upwards, and of the whole cell. \[sr\]
     weights: Vec<[f64; 2]>,
-    /// Flux of the rows of tabulated data that have been summed.
+    /// Cached flux of rows of tabulated data.
     fluxes: HashMap<usize, [f64; 2]>,
 }
 
 impl Upward {
-    /// Returns the light of an incident direction that goes up, and all that is scattered.
+    /// Returns the upward and the total scattered light for an incident direction, as shares of the incident flux.
     fn flux(&mut self, btdf: &Btdf, incident: Incident) -> [f64; 2] {
         let row = match &btdf.scattered {
             Some(Scattered::Cells(matrix)) => matrix.incident().index(incident.0),
@@ -109,10 +111,13 @@ impl Upward {
     }
 }
 
+/// Returns for every emergent cell the part of its projected solid angle in which light propagates upwards, and the
+/// whole. \[sr\]
 fn weights(basis: &RingBasis) -> Vec<[f64; 2]> {
     let of = |cell: Cell| {
         let whole = cell.projected_solid_angle();
-        // A through-name points back to where the light seems to come from: light of a low name goes up.
+        // Emergent cells hold directions of undeviated light, opposite to the propagation: below the horizon, light
+        // goes up.
         let upward = |j: &usize| (cell.phi + cell.width * ((*j as f64 + 0.5) / ACROSS as f64 - 0.5)).sin() < 0.0;
         let [first, last] = [upward(&0), upward(&(ACROSS - 1))];
         // In less than half a turn the sine changes its sign once at most.
@@ -146,7 +151,7 @@ fn view(btdf: &Btdf) -> f64 {
     // All sectors of the innermost ring hold the normal.
     let [q, weight] = mean(&|cell| cell.theta_min == own.theta_min);
     let [surroundings, around] = mean(&|cell| cell.theta_min > own.theta_min && cell.theta_min < reach);
-    // A single cell stands out of nothing: that is a diffuser.
+    // Without light around it, the cell has no neighbours to exceed: the system counts as a diffuser.
     let beam = around > 0.0 && q > STANDS_OUT * surroundings;
     regular + if beam { (q - surroundings) * weight } else { 0.0 }
 }

@@ -1,18 +1,19 @@
-//! Findings of a reader or a check on a dataset: structured, so that the window, `info` and tests share them.
+//! Findings of a file reader or a data check on a dataset, in structured form for the window, the command line and
+//! tests.
 
 /// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
-    /// Information; results are not affected.
+    /// Information that does not affect results.
     Info,
-    /// Possible effect on results; read the message.
+    /// Warning: results may be affected.
     Warning,
-    /// Data not fit for use.
+    /// Error: the data are not fit for use.
     Error,
 }
 
 impl Severity {
-    /// Returns the key used in files and JSON.
+    /// Returns the key of the severity in files and JSON.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Info => "info",
@@ -22,29 +23,29 @@ impl Severity {
     }
 }
 
-/// One finding about a dataset.
+/// Finding: remark of a file reader or a data check on a dataset.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
     /// Severity of the finding.
     pub severity: Severity,
     /// Stable identifier in kebab case, e.g. `energy-above-one`.
     pub code: &'static str,
-    /// Message on the finding, its place and its meaning. One sentence, units included.
+    /// English sentence that names the finding, its place and its meaning, with units.
     pub message: String,
 }
 
 impl Finding {
-    /// Creates a finding that is worth knowing and does not affect results.
+    /// Creates an informative finding that does not affect results. `code`: stable identifier in kebab case.
     pub fn info(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Info, code, message: message.into() }
     }
 
-    /// Creates a finding that may affect results.
+    /// Creates a warning: a finding that may affect results. `code`: stable identifier in kebab case.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, code, message: message.into() }
     }
 
-    /// Creates a finding that makes the data unfit for use.
+    /// Creates an error: a finding that makes the data unfit for use. `code`: stable identifier in kebab case.
     pub fn error(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Error, code, message: message.into() }
     }

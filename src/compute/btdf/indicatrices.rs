@@ -1,7 +1,8 @@
-//! Indicatrices measured (or computed) at single incident directions, as a goniophotometer gives them.
+//! BTDF data at single incident directions: indicatrices (q over the emergent directions) as measured by a
+//! goniophotometer.
 //!
-//! Unlike a [`super::CellMatrix`], whose rows are means over incident cells, nothing is known here between the
-//! directions: [`crate::compute::incidence`] interpolates there.
+//! Unlike the rows of a [`super::CellMatrix`], which are means over incident cells, the indicatrices hold for single
+//! directions; [`crate::compute::incidence`] interpolates between them.
 
 use super::CellMatrix;
 use super::rows::Rows;
@@ -12,7 +13,8 @@ use std::borrow::Cow;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// q at single incident directions, each on the same emergent cells.
+/// BTDF or BRDF given by indicatrices at single incident directions: luminance coefficients q \[1/sr\] on the same
+/// emergent cells for each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indicatrices {
     incident: Vec<Incident>,
@@ -20,24 +22,25 @@ pub struct Indicatrices {
     emergent: RingBasis,
     rows: Rows,
     tau: Vec<f64>,
-    /// Share of the projected hemisphere that each direction represents; sums to 1.
+    /// Share of the projected hemisphere that each incident direction represents; the shares add up to 1.
     share: Vec<f64>,
 }
 
-/// Distance up to which directions of a lattice and of a file are the same. \[rad\] Angles rounded to 0.1° are off by
-/// up to 0.05° in θ and in φ, together 1.2e-3.
+/// Angular distance up to which directions of a standard basis and of a file count as the same. \[rad\] Angles rounded
+/// to 0.1° are off by up to 0.05° in θ and in φ, together 1.2e-3.
 const SAME_DIRECTION: f64 = 2e-3;
 
 impl Indicatrices {
-    /// Creates indicatrices from values in 1/sr, `values[i · emergent.len() + o]`: incident direction i, emergent cell
-    /// o (by through direction). `None` when the count does not fit, without directions, or when two directions
-    /// coincide.
+    /// Creates indicatrices from the luminance coefficients `values[i · emergent.len() + o]` \[1/sr\] of incident
+    /// direction i and emergent cell o; emergent cells contain reversed emergent directions. `None` if the number of
+    /// values does not fit, without directions, or if two directions coincide.
     pub fn new(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f64>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
     }
 
-    /// Creates indicatrices like [`Self::new`], from values that were kept as f32.
+    /// Creates indicatrices like [`Self::new`] from luminance coefficients in single precision \[1/sr\]. `None` if the
+    /// number of values does not fit, without directions, or if two directions coincide.
     pub fn of_single(incident: Vec<Incident>, emergent: RingBasis, values: Vec<f32>) -> Option<Self> {
         let fit = values.len() == incident.len() * emergent.len();
         fit.then(|| Rows::of_single(values)).and_then(|rows| Self::with_sums(incident, emergent, rows))
@@ -48,8 +51,9 @@ impl Indicatrices {
         Self::with_rows(incident, emergent, rows, tau)
     }
 
-    /// Creates indicatrices from those in compact form, one per incident direction; they stay compact, and τ is what
-    /// they keep. `None` when the count does not fit, without directions, or when two directions coincide.
+    /// Creates indicatrices from those compressed by wavelets, one per incident direction; they remain compressed, with
+    /// the exact τ stored in them. `None` if their number does not fit, without directions, or if two directions
+    /// coincide.
     pub fn from_compact(incident: Vec<Incident>, rows: Arc<CompactRows>) -> Option<Self> {
         if rows.len() != incident.len() {
             return None;
@@ -58,10 +62,11 @@ impl Indicatrices {
         Self::with_rows(incident, rows.basis().clone(), Rows::Compact(rows), tau)
     }
 
-    /// Returns the data in compact form: τ is kept, everything else as well as the criterion says.
+    /// Returns the indicatrices compressed by wavelets: τ is exact, the errors of q are within `criterion`.
     ///
     /// # Errors
-    /// Returns an error if the values have no compact form.
+    /// Returns an error if the values cannot be compressed (negative or not finite, or too many cells) or the criterion
+    /// is invalid.
     pub fn compacted(&self, criterion: Criterion) -> Result<Self, CompactError> {
         let row = |i| self.row(i).into_owned();
         let rows = CompactRows::compress(&self.emergent, self.incident.len(), row, criterion)?;
@@ -69,6 +74,8 @@ impl Indicatrices {
         Ok(Self { rows: Rows::Compact(Arc::new(rows)), tau, ..self.clone() })
     }
 
+    /// Creates the data from their rows and the transmittance of every row. `None` if there is no incident direction or
+    /// two of them coincide.
     fn with_rows(incident: Vec<Incident>, emergent: RingBasis, rows: Rows, tau: Vec<f64>) -> Option<Self> {
         if incident.is_empty() {
             return None;
@@ -90,29 +97,29 @@ impl Indicatrices {
         Some(Self { incident, lattice, emergent, rows, tau, share })
     }
 
-    /// Returns the incident directions.
+    /// Returns the incident directions of the data.
     pub fn incident(&self) -> &[Incident] {
         &self.incident
     }
 
-    /// Returns the division of the hemisphere whose cell centres the incident directions are, in its order; `None` for
-    /// other lists of directions.
+    /// Returns the standard basis (Tregenza or Klems) whose cell centres are the incident directions, in its order;
+    /// `None` for other lists of directions.
     pub fn lattice(&self) -> Option<&RingBasis> {
         self.lattice.as_ref()
     }
 
-    /// Returns the emergent cells, by through direction.
+    /// Returns the basis of the emergent cells, which contain reversed emergent directions ω′ = −ω_a.
     pub fn emergent(&self) -> &RingBasis {
         &self.emergent
     }
 
-    /// Returns the indicatrix of one incident direction. \[1/sr\] It is made on request where the data are held in
-    /// compact form.
+    /// Returns the indicatrix of one incident direction (by index): q for every emergent cell. \[1/sr\] Compressed data
+    /// are restored for each call.
     pub fn row(&self, incident: usize) -> Cow<'_, [f64]> {
         self.rows.row(incident, self.emergent.len())
     }
 
-    /// Returns the compact form, where the data are held in it.
+    /// Returns the indicatrices compressed by wavelets; `None` if the data are not compressed.
     pub fn compact_rows(&self) -> Option<&Arc<CompactRows>> {
         self.rows.compact()
     }
@@ -122,19 +129,19 @@ impl Indicatrices {
         &self.tau
     }
 
-    /// Returns the share of the projected hemisphere that each direction represents: of its lattice's cell, or nearest
-    /// to it. Sums to 1.
+    /// Returns the share of the projected hemisphere that each incident direction represents: that of its cell in the
+    /// standard basis, or of all directions nearest to it. The shares add up to 1.
     pub fn shares(&self) -> &[f64] {
         &self.share
     }
 
-    /// Returns the index of the incident direction nearest to another.
+    /// Returns the index of the incident direction of the data that is nearest to `d`.
     pub fn nearest(&self, d: Dir<Facade>) -> usize {
         nearest(&self.incident, d)
     }
 
-    /// Returns the index of the incident direction that represents `d`: of the lattice's cell that holds it, else the
-    /// nearest. `None` outside the hemisphere.
+    /// Returns the index of the incident direction of the data that represents `d`: that of the cell of the standard
+    /// basis that contains `d`, otherwise the nearest. `None` for z < 0.
     pub fn standing_for(&self, d: Dir<Facade>) -> Option<usize> {
         match &self.lattice {
             Some(basis) => basis.index(d),
@@ -142,8 +149,8 @@ impl Indicatrices {
         }
     }
 
-    /// Returns the data as means over incident cells: of the lattice, or of cells of about 9° that take their nearest
-    /// direction.
+    /// Returns the data as patch-averaged data: on the incident cells of the standard basis, or on cells of about 9°
+    /// that are given the indicatrix of the nearest direction.
     pub fn to_cells(&self) -> CellMatrix {
         let incident = self.lattice.clone().unwrap_or_else(|| RingBasis::equal_area(10));
         let values = incident.cells().flat_map(|cell| {
@@ -154,7 +161,8 @@ impl Indicatrices {
         CellMatrix::new(incident, self.emergent.clone(), values).expect("a row was made for every cell")
     }
 
-    /// Returns q without interpolation, of the direction that represents `incident`. \[1/sr\]
+    /// Returns the luminance coefficient q without interpolation, of the incident direction of the data that represents
+    /// `incident`. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match (self.standing_for(incident.0), self.emergent.index(emergent.through_name())) {
             (Some(i), Some(o)) => self.rows.value(i, o, self.emergent.len()),
@@ -162,18 +170,20 @@ impl Indicatrices {
         }
     }
 
-    /// Returns τ without interpolation, of the direction that represents `incident`.
+    /// Returns the directional-hemispherical transmittance τ without interpolation, of the incident direction of the
+    /// data that represents `incident`.
     pub fn tau(&self, incident: Incident) -> f64 {
         self.standing_for(incident.0).map_or(0.0, |i| self.tau[i])
     }
 
-    /// Returns the transmittance for uniform luminance, each direction representing its cell.
+    /// Returns the hemispherical transmittance, for light from a hemisphere of uniform luminance; each incident
+    /// direction represents its cell.
     pub fn tau_hemispherical(&self) -> f64 {
         self.share.iter().zip(&self.tau).map(|(share, tau)| share * tau).sum()
     }
 }
 
-/// Returns the chord between two directions, which is their angle while it is small. \[rad\]
+/// Returns the chord between two directions on the unit sphere, which equals a small angle between them. \[rad\]
 fn chord(a: Dir<Facade>, b: Dir<Facade>) -> f64 {
     (a.vector() - b.vector()).length()
 }
@@ -183,7 +193,8 @@ fn nearest(incident: &[Incident], d: Dir<Facade>) -> usize {
     (1..incident.len()).fold(0, |best, i| if cosine(i) > cosine(best) { i } else { best })
 }
 
-/// Returns the share of the projected hemisphere nearest to each direction, counted on cells of about 2°.
+/// Returns, for each incident direction, the share of the projected hemisphere that is nearest to it, counted on cells
+/// of about 2°.
 fn nearest_shares(incident: &[Incident]) -> Vec<f64> {
     let basis = RingBasis::equal_area(40);
     let mut share = vec![0.0; incident.len()];

@@ -1,8 +1,8 @@
-//! Bidirectional transmittance (and reflectance) distribution functions in memory.
+//! Bidirectional transmittance and reflectance distribution functions (BTDF, BRDF) and datasets of them.
 //!
-//! A [`Btdf`] has two parts that never mix: regular transmission ([`Btdf::regular`], a δ in direction, no value in
-//! 1/sr) and scattered light ([`Btdf::scattered`], q in 1/sr). Emergent directions are stored by through direction (see
-//! [`crate::compute::direction`]).
+//! A [`Btdf`] has two separate parts: regular transmission ([`Btdf::regular`], a δ in direction, without a value in
+//! 1/sr) and scattered light ([`Btdf::scattered`], q in 1/sr). Emergent directions ω_a are stored reversed, as the
+//! direction of undeviated light ω′ = −ω_a (see [`crate::compute::direction`]).
 
 mod angular;
 mod cell_matrix;
@@ -47,44 +47,47 @@ use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Emergent, Incident};
 use std::sync::Arc;
 
-/// Scattered part of a BTDF or BRDF.
+/// Scattered part of a BTDF or BRDF, without regular transmission.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scattered {
-    /// Same luminance in every emergent direction, q = τ(θ_e)/π.
+    /// Lambertian transmission: the same luminance in every emergent direction, q = τ(θ_e)/π.
     Lambert(AngularTransmittance),
-    /// Value for every pair of an incident and an emergent cell.
+    /// Patch-averaged data: q for every pair of an incident and an emergent cell.
     Cells(Box<CellMatrix>),
-    /// Indicatrix for every one of a list of incident directions.
+    /// Indicatrices at a list of single incident directions.
     Directions(Arc<Indicatrices>),
-    /// Tensor tree of rank 3 or 4 on Shirley–Chiu squares.
+    /// Tensor tree of rank 3 or 4 on Shirley–Chiu squares (Radiance).
     Tree(Box<TensorTree>),
 }
 
-/// Bidirectional transmittance (or reflectance) distribution function for light from one side.
+/// Bidirectional transmittance or reflectance distribution function (BTDF, BRDF) for light from one side.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Btdf {
-    /// Unscattered part: the share of the light that keeps its direction.
+    /// Regular transmittance: share of the incident flux that is transmitted undeviated; `None` if there is no regular
+    /// transmission.
     pub regular: Option<AngularTransmittance>,
-    /// Scattered part.
+    /// Scattered light as luminance coefficients q \[1/sr\]; `None` if nothing is scattered.
     pub scattered: Option<Scattered>,
 }
 
-/// Emergent distribution of one incident direction ("indicatrix of diffusion"): a value of q for every cell.
+/// Emergent distribution for one incident direction ("indicatrix of diffusion"): the luminance coefficient q for every
+/// emergent cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Indicatrix {
-    /// Emergent cells, by through direction.
+    /// Emergent cells, which contain reversed emergent directions ω′ = −ω_a.
     pub basis: RingBasis,
-    /// Luminance coefficient of each cell. \[1/sr\]
+    /// Luminance coefficient q of each cell. \[1/sr\]
     pub q: Vec<f64>,
 }
 
 impl Btdf {
-    /// Creates a purely scattering function on cells.
+    /// Creates a function without regular transmission from patch-averaged data.
     pub fn from_cells(matrix: CellMatrix) -> Self {
         Self { regular: None, scattered: Some(Scattered::Cells(Box::new(matrix))) }
     }
 
-    /// Returns the luminance coefficient q = L/E of the scattered part. \[1/sr\]
+    /// Returns the luminance coefficient q = L/E of the scattered part for an incident and an emergent direction.
+    /// \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
         match &self.scattered {
             None => 0.0,
@@ -95,7 +98,8 @@ impl Btdf {
         }
     }
 
-    /// Returns the directional-hemispherical transmittance τ(ω_e), eq 1, regular part included.
+    /// Returns the directional-hemispherical transmittance τ(ω_e) for an incident direction (eq 1), regular
+    /// transmission included.
     pub fn tau(&self, incident: Incident) -> f64 {
         let theta = incident.0.theta();
         let regular = self.regular.as_ref().map_or(0.0, |tau| tau.at(theta));
@@ -109,12 +113,13 @@ impl Btdf {
         regular + scattered
     }
 
-    /// Returns the transmittance at normal incidence.
+    /// Returns the directional-hemispherical transmittance at normal incidence, regular transmission included.
     pub fn tau_normal(&self) -> f64 {
         self.tau(Incident(crate::compute::direction::Dir::from_unit(glam::DVec3::Z)))
     }
 
-    /// Returns the transmittance for uniform luminance of the whole hemisphere.
+    /// Returns the hemispherical transmittance, for light from a hemisphere of uniform luminance, regular transmission
+    /// included.
     pub fn tau_hemispherical(&self) -> f64 {
         let regular = self.regular.as_ref().map_or(0.0, AngularTransmittance::hemispherical);
         let scattered = match &self.scattered {
@@ -127,7 +132,8 @@ impl Btdf {
         regular + scattered
     }
 
-    /// Returns the cells in which the data resolve incidence; for continuous functions a Klems basis to list them by.
+    /// Returns the basis of incident cells for listings of the data: that of the data, or the full Klems basis for
+    /// functions without cells.
     pub fn incident_basis(&self) -> RingBasis {
         match &self.scattered {
             Some(Scattered::Cells(matrix)) => matrix.incident().clone(),
@@ -137,7 +143,7 @@ impl Btdf {
         }
     }
 
-    /// Returns the scattered emergent distribution for one incident direction; `None` when nothing is scattered.
+    /// Returns the emergent distribution of scattered light for one incident direction; `None` if nothing is scattered.
     pub fn indicatrix(&self, incident: Incident) -> Option<Indicatrix> {
         Some(match self.scattered.as_ref()? {
             Scattered::Lambert(tau) => Indicatrix {

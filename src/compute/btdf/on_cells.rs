@@ -1,5 +1,4 @@
-//! Conversion of any function to a matrix between the cells of two bases, for writers of cell formats and functions
-//! that are not on their cells.
+//! Conversion of any BTDF or BRDF to patch-averaged data on given bases, for file formats with fixed cells.
 
 use super::resample::resample_matrix;
 use super::{Btdf, CellMatrix, Scattered, TensorTree};
@@ -7,18 +6,21 @@ use crate::compute::basis::{Resampling, RingBasis, SquareGrid};
 use crate::compute::quadrature::midpoints;
 use std::f64::consts::PI;
 
-/// Computes means over incident and emergent cells; flux is kept. Regular transmission fills the emergent cells that
-/// its incident cell covers. Single incident directions represent the cells around them.
+/// Converts a BTDF or BRDF to patch-averaged data: means of q over the cells of `incident` and `emergent`, with the
+/// flux conserved. Regular transmission is spread over the emergent cells that its incident cell covers. Single
+/// incident directions represent the cells around them.
 pub fn matrix_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     sampled_on(btdf, incident, emergent, 1024)
 }
 
-/// Computes means like [`matrix_on`], with tensor trees sampled at a sixteenth of the directions: for comparisons, not
-/// for files.
+/// Converts a BTDF or BRDF to patch-averaged data like [`matrix_on`], with tensor trees sampled at a sixteenth of the
+/// directions: for comparisons, not for files.
 pub fn matrix_roughly_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     sampled_on(btdf, incident, emergent, 256)
 }
 
+/// Converts a BTDF or BRDF to patch-averaged data. `side`: number of sampled directions along each side of the square
+/// of a tensor tree.
 fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usize) -> CellMatrix {
     let n = emergent.len();
     let across = midpoints(ACROSS);
@@ -55,7 +57,7 @@ fn sampled_on(btdf: &Btdf, incident: &RingBasis, emergent: &RingBasis, side: usi
 /// function's curvature over the ring.
 const ACROSS: usize = 512;
 
-/// Computes the mean emergent distribution of every incident cell under uniform luminance of that cell. The shares of
+/// Computes the mean emergent distribution of a tensor tree for uniform luminance of each incident cell. The shares of
 /// tree cells in ring cells are counted on `side`² directions of equal weight; every distribution is then scaled to its
 /// exact flux.
 fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis, side: usize) -> Vec<f64> {
@@ -87,7 +89,7 @@ fn tree_on(tree: &TensorTree, incident: &RingBasis, emergent: &RingBasis, side: 
     values
 }
 
-/// Returns for every cell of the basis the grid cells that fill it, with their shares (sum 1).
+/// Returns for every cell of the basis the grid cells that cover it, with their shares of the cell (sum 1).
 fn grid_shares(grid: SquareGrid, basis: &RingBasis, side: usize) -> Vec<Vec<(usize, f64)>> {
     let per_side = (side / grid.resolution()).max(1);
     let mut counts: Vec<Vec<(usize, f64)>> = vec![Vec::new(); basis.len()];
@@ -102,7 +104,7 @@ fn grid_shares(grid: SquareGrid, basis: &RingBasis, side: usize) -> Vec<Vec<(usi
     }
     for (place, list) in counts.iter_mut().enumerate() {
         if list.is_empty() {
-            // A cell finer than the samples: its centre stands for it.
+            // A cell finer than the samples is represented by its centre.
             list.extend(grid.index(basis.cell(place).centre()).map(|k| (k, 1.0)));
         }
         let total: f64 = list.iter().map(|entry| entry.1).sum();

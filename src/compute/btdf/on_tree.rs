@@ -1,12 +1,11 @@
-//! Conversion of any function to a tensor tree: what writers of trees make of functions on other cells, and what
-//! pruning costs.
+//! Conversion of any BTDF or BRDF to a tensor tree for file formats with trees, and the error of pruning.
 //!
-//! The function is averaged over a full grid of 2^level steps a coordinate, each incident cell scaled to its exact
-//! flux; then boxes whose values hardly differ become one leaf with their mean. Which boxes, one number decides: the
-//! mean absolute deviation inside the box, a threshold found by bisection such that all merging together misplaces no
-//! more than the stated share of the light. (Radiance's `rttree_reduce` asks for a percentile of boxes instead, which
-//! bounds the size of the file rather than its error.) The rule treats both squares alike, so that reciprocal data stay
-//! reciprocal.
+//! The function is averaged over a full grid of 2^level steps per coordinate, each incident cell scaled to its exact
+//! flux; then boxes whose values hardly differ are replaced by one leaf with their mean. The criterion is the mean
+//! absolute deviation inside the box; its threshold is found by bisection such that all merging together changes the
+//! direction of no more than the stated share of the flux. (Radiance's `rttree_reduce` asks for a percentile of boxes
+//! instead, which bounds the size of the file rather than its error.) The criterion is the same for both squares, so
+//! that reciprocal data remain reciprocal.
 
 use super::tensor_tree::{TensorTree, TreeAxes, TreeNode, TreeRank};
 use super::{Btdf, Scattered};
@@ -24,8 +23,8 @@ use codes::{Codes, matrix_of, spread_leaves, to_flux};
 pub use shape::{OnTree, OnTreeError, TreeShape};
 
 impl TensorTree {
-    /// Returns the function with its squares in other axes, exact: front and back axes differ by a half turn, which
-    /// leaves the relative azimuths of rank 3 as they are.
+    /// Returns the same function with its squares in the axes `axes`, exactly: front and back axes differ by a rotation
+    /// of 180°, which does not change the relative azimuths of rank 3.
     pub fn with_axes(&self, axes: TreeAxes) -> Self {
         if axes == self.axes() {
             return self.clone();
@@ -47,12 +46,13 @@ impl TensorTree {
     }
 }
 
-/// Converts a function to a tree in the given axes. A tree of the same rank is only pruned further, and kept as it is
-/// by a tolerance of 0 and a level that is not coarser than its own. Regular transmission fills its own cell; in rank 3
-/// the two cells on both sides of azimuth 0.
+/// Converts a BTDF or BRDF to a tensor tree of the requested shape in the given axes. A tree of the same rank is only
+/// pruned further; with a tolerance of 0 and a level not coarser than its own it is unchanged. Regular transmission is
+/// stored in the emergent cell of undeviated light; in rank 3 in the two cells on both sides of azimuth 0.
 ///
 /// # Errors
-/// Returns an error if the level or the tolerance is out of range, or if the tree has more nodes than readers take.
+/// Returns an error if the level or the tolerance is out of range, or if the tree has more nodes than readers of files
+/// accept.
 pub fn tree_on(btdf: &Btdf, axes: TreeAxes, shape: TreeShape) -> Result<OnTree, OnTreeError> {
     let grid = shape.check()?;
     if let (None, Some(Scattered::Tree(tree))) = (&btdf.regular, &btdf.scattered)
@@ -70,17 +70,18 @@ pub fn tree_on(btdf: &Btdf, axes: TreeAxes, shape: TreeShape) -> Result<OnTree, 
     prune::prune(values, axes, shape, turned)
 }
 
+/// Returns the mean q of every box of the full grid of rank 4, in the order of `codes`. \[1/sr\]
 fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64> {
     let mut values = vec![0.0; codes.values];
     let (resolution, n) = (grid.resolution(), grid.len());
-    // Both squares by cells of the façade frame.
+    // Codes of the incident and of the emergent cells, by their index in the façade frame.
     let place = |dimension, cell: usize| {
         codes.of_square(dimension, axes.turn_cell([cell % resolution, cell / resolution], resolution))
     };
     let inward: Vec<usize> = (0..n).map(|cell| place(0, cell)).collect();
     let outward: Vec<usize> = (0..n).map(|cell| place(2, cell)).collect();
     let mut fill = |row_of: &(dyn Fn(usize) -> Vec<f64> + Sync)| {
-        // A few rows at a time, so that they need not all be kept beside the values.
+        // In blocks of rows, so that not all rows are in memory in addition to the values.
         for block in (0..n).collect::<Vec<_>>().chunks(256) {
             let rows: Vec<Vec<f64>> = block.par_iter().map(|&i| row_of(i)).collect();
             for (&i, row) in block.iter().zip(rows) {
@@ -140,7 +141,7 @@ fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64
     values
 }
 
-/// Returns for every grid cell the ring cells that it lies in, with their shares of it.
+/// Returns for every grid cell the ring cells that overlap it, with their shares of it.
 fn shares(grid: SquareGrid, basis: &RingBasis) -> Vec<Vec<(usize, f64)>> {
     let side = (512 / grid.resolution()).max(4);
     let one = 1.0 / (side * side) as f64;

@@ -1,6 +1,6 @@
-//! Square grids above each other, by which a tree is summed in one walk over its leaves.
+//! Pyramid of square grids, with which a tensor tree is summed in one walk over its leaves.
 
-/// Square grids of every resolution from 1 to the finest, one above the other.
+/// Values on square grids of every resolution from 1 to the finest, by powers of two.
 pub(super) struct Pyramid {
     levels: Vec<Vec<f64>>,
 }
@@ -10,7 +10,7 @@ impl Pyramid {
         Self { levels: (0..=finest).map(|level| vec![0.0; 1 << (2 * level)]).collect() }
     }
 
-    /// Creates a pyramid from totals of the finest cells: every coarser cell holds the sum of its four.
+    /// Creates a pyramid from totals of the finest cells: the value of every coarser cell is the sum of its four parts.
     pub(super) fn gather(finest: u32, totals: Vec<f64>) -> Self {
         let mut pyramid = Self::new(finest);
         pyramid.levels[finest as usize] = totals;
@@ -36,7 +36,7 @@ impl Pyramid {
         self.levels[level as usize][(iy << level) + ix]
     }
 
-    /// Adds every cell's value to all finest cells below it, and returns these.
+    /// Returns the finest grid with the value of every coarser cell added to all finest cells in it.
     pub(super) fn spread(mut self) -> Vec<f64> {
         for level in 1..self.levels.len() {
             let side = 1 << level;

@@ -1,11 +1,11 @@
-//! Regular transmission in patch-averaged data and in data at single directions. A pane in such a file is a diagonal of
-//! patches, and their width blurs the view through it. Where light keeps its direction, the direction is known exactly,
-//! and only τ(θ) has to be estimated, from means over patches or from values at single directions.
+//! Separation of regular transmission from patch-averaged data and from data at single directions. A pane in such data
+//! is a diagonal of patches, and their width blurs the view through it. For undeviated light the direction is known
+//! exactly, and only τ(θ) has to be estimated, from means over patches or from values at single directions.
 //!
 //! Transmission is recognised as regular if it
-//! - lies only in the emergent patches straight ahead of the incident direction, and not in their neighbours, as every
-//!   lobe with a width does;
-//! - depends on the angle of incidence only, as that of panes, perforated sheets and fabrics.
+//! - lies only in the emergent patches of undeviated light, and not in their neighbours, which every lobe with a width
+//!   also lights;
+//! - depends on the angle of incidence only, which holds for panes, perforated sheets and fabrics.
 //!
 //! τ(θ) is the smoothest function of cosθ with the means of the data (Gaussian process with a Matérn covariance of
 //! order 5/2; Rasmussen & Williams 2006, ch. 2 and 4), with τ(90°) = 0 unless the data contradict it.
@@ -44,14 +44,14 @@ const SAME_ANGLE: f64 = 1800.0 / PI;
 /// Minimum number of angles of incidence, and minimum of the largest of them. \[rad\] Chosen: the coarsest basis, Klems
 /// Quarter, has five rings, the last one at 78°; τ of panes falls beyond 60°.
 const KNOWN: (usize, f64) = (4, 65.0 * PI / 180.0);
-/// Number of directions along each side of an incident patch that find the emergent patches straight ahead. Chosen:
-/// misses overlaps of less than an eighth of a side.
+/// Number of directions along each side of an incident patch in the search for the emergent patches of undeviated
+/// light. Chosen: misses overlaps of less than an eighth of a side.
 const NAMES: usize = 8;
-/// Distance in θ within which light of a single direction may be stored in a patch next to it. \[rad\] Chosen: a few of
-/// the steps of 0.1° to which angles in files are rounded. No test of its own.
+/// Distance in θ within which undeviated light of a single direction may be stored in a neighbouring patch. \[rad\]
+/// Chosen: a few of the steps of 0.1° to which angles in files are rounded. No test of its own.
 const BESIDE: f64 = 0.3 * PI / 180.0;
-/// Share of a patch in φ within which light of a single direction may be stored beside it, where a row was rotated
-/// about the normal: a whole patch, less what keeps rounding from reaching the one after it.
+/// Share of a patch's width in φ within which undeviated light of a single direction may be stored beside it, if a row
+/// was rotated about the normal: a whole patch, except for a margin for rounding.
 const TURNED: f64 = 0.999;
 /// Number of Gauss points for the mean over a patch: exact for polynomials of degree 15 in sin²θ.
 const ACROSS: usize = 8;
@@ -60,35 +60,35 @@ const ACROSS: usize = 8;
 const LENGTH: f64 = 1.0;
 /// Relative accuracy of the digits in files. Rounding to four digits has a root mean square of 1.3e-4.
 const DIGITS: f64 = 1e-4;
-/// Number of standard errors within which τ(90°) = 0 is used: computed for one to three panes on Klems, half, quarter
-/// and Tregenza patches it is at most 3.6, for an opening at least 11.
+/// Number of standard errors of the extrapolated τ(90°) within which τ(90°) = 0 is assumed: computed for one to three
+/// panes on Klems, half, quarter and Tregenza patches it is at most 3.6, for an opening at least 11.
 const NO_SURPRISE: f64 = 4.0;
 /// Standard error of τ(90°) = 0, relative to the largest τ. The value is exact by Fresnel's equations. Chosen: below
 /// the accuracy of measured transmittances. No test of its own.
 const AT_GRAZING: f64 = 1e-3;
-/// Uncertainty in standard errors: computed errors of panes are up to three standard errors at single angles. Held by
-/// `tests/scenes/sky_in_cells.rs::a_pane_in_data_is_a_pane`.
+/// Stated uncertainty in standard errors: computed errors of panes are up to three standard errors at single angles.
+/// Held by `tests/scenes/sky_in_cells.rs::a_pane_in_data_is_a_pane`.
 const STATED: f64 = 3.5;
 /// Range of angles over which the largest uncertainty is used. \[°\] Chosen: with both sides it spans more than a Klems
 /// ring (10°), so that a known angle does not hide the uncertainty beside it. No test of its own.
 const WITHIN: usize = 8;
-/// Smallest squared deviation that is kept, as a share of the largest: 1 % of the deviation. Chosen: cost; results
-/// change within their stated error.
+/// Smallest eigenvalue of the posterior covariance that is used, relative to the largest: 1e-2 of the deviation.
+/// Chosen: cost; results change within their stated error.
 const FAINT: f64 = 1e-4;
 
-/// One row of the data.
+/// Incident patch or incident direction of the data, for the separation of regular transmission.
 struct Row {
     /// Angle to the normal, by which rows are grouped. \[rad\]
     theta: f64,
     /// Cosines of incidence with weights that sum to 1.
     points: Vec<(f64, f64)>,
-    /// Emergent cells straight ahead of the row's incident directions.
+    /// Indices of the emergent cells that undeviated light from the row's incident directions reaches.
     names: Vec<usize>,
     /// Share of the projected hemisphere that the row represents.
     share: f64,
 }
 
-/// Regular transmittance that the rows of one angle give together.
+/// Regular transmittance at one angle of incidence, from all rows of this angle.
 #[derive(Clone)]
 struct Known {
     theta: f64,
@@ -98,7 +98,8 @@ struct Known {
     noise: f64,
 }
 
-/// Returns the function with regular transmission separated; `None` where none is recognised in its data.
+/// Returns the function with its regular transmission separated from the scattered light; `None` if none is recognised
+/// in the data.
 pub fn separate_regular(btdf: &Btdf) -> Option<Btdf> {
     if btdf.regular.is_some() {
         return None;
@@ -153,7 +154,8 @@ impl Row {
     }
 }
 
-/// Separates the regular transmittance; returns also what is left, row by row, or `None` for it where no light is left.
+/// Returns the regular transmittance and the remaining scattered light (q by row and emergent cell, or `None` if none
+/// remains); `None` if no regular transmission is recognised.
 fn separate_rows(
     rows: &[Row],
     emergent: &RingBasis,
@@ -164,7 +166,7 @@ fn separate_rows(
     let flux = |q: &[f64], cells: &[usize]| cells.iter().map(|&cell| q[cell] * weight[cell]).sum::<f64>();
     let mut rest = Vec::with_capacity(rows.len() * weight.len());
     let (mut all, mut straight, mut even, mut leaked) = (0.0, 0.0, 0.0, 0.0);
-    // Straight flux of every row, and what surrounds it.
+    // Undeviated flux of every row, and the background flux in the same cells.
     let mut found: Vec<[f64; 2]> = Vec::with_capacity(rows.len());
     for (index, own) in rows.iter().enumerate() {
         let mut q = row(index);
@@ -174,7 +176,7 @@ fn separate_rows(
         let background = (level * wide).min(inside);
         let about = near.about(&own.names, &[]);
         let outer = near.level(&q, &about, &own.names);
-        // What leaks out of a lobe does so on all sides: twice the lesser half of it.
+        // A lobe wider than the cells leaks to all sides: twice the sum over the lesser half of the neighbours.
         let mut leaks: Vec<f64> = about.iter().map(|&cell| (q[cell] - outer).max(0.0) * weight[cell]).collect();
         leaks.sort_unstable_by(f64::total_cmp);
         leaked += own.share * 2.0 * leaks[..leaks.len() / 2].iter().sum::<f64>();
@@ -193,7 +195,8 @@ fn separate_rows(
     Some((tau, scattered.then_some(rest)))
 }
 
-/// Combines rows of the same angle; `None` where they contradict each other, or where the angles are too few.
+/// Returns the regular transmittance at every angle of incidence; `None` if rows of the same angle contradict each
+/// other, or if there are too few angles.
 fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
     let key = |row: &Row| (row.theta * SAME_ANGLE).round() as i64;
     let mut groups = BTreeMap::<i64, Vec<usize>>::new();
@@ -215,24 +218,25 @@ fn by_angle(rows: &[Row], found: &[[f64; 2]]) -> Option<Vec<Known>> {
     known.filter(|known| known.len() >= KNOWN.0 && reach(known))
 }
 
-/// Smoothest function through the known values.
+/// Smooth function of cosθ fitted to the known transmittances (Gaussian process).
 struct Smooth<'a> {
     known: &'a [Known],
     factor: Llt<f64>,
     solved: Mat<f64>,
-    /// Variance of the function itself.
+    /// Prior variance of the function.
     variance: f64,
-    /// Squared deviation of each known value from what all others predict, in units of the expected deviation.
+    /// Squared deviation of each known value from its prediction by all others, relative to the expected one.
     surprise: Vec<f64>,
 }
 
 impl Known {
-    /// Returns the covariance with the value at a cosine of incidence.
+    /// Returns the covariance of this transmittance with that at a cosine of incidence.
     fn covariance_with(&self, cosine: f64) -> f64 {
         self.points.iter().map(|p| p.1 * covariance(p.0, cosine)).sum()
     }
 }
 
+/// Returns the prior correlation of the transmittances at two cosines of incidence (Matérn, ν = 5/2).
 fn covariance(a: f64, b: f64) -> f64 {
     let r = 5.0_f64.sqrt() * (a - b).abs() / LENGTH;
     (1.0 + r + r * r / 3.0) * (-r).exp()
@@ -266,15 +270,14 @@ impl<'a> Smooth<'a> {
         let sum = |of: &dyn Fn(usize) -> f64| (0..n).map(of).sum::<f64>();
         let value = sum(&|i| here[(i, 0)] * self.solved[(i, 0)]);
         let variance = self.variance * (1.0 - sum(&|i| here[(i, 0)] * weights[(i, 0)])).max(0.0);
-        // Where the function is smoother than it is on the whole, its neighbours know it better than the variance says;
-        // where it has kinks, worse.
+        // The standard error is too large where the function is smoother than on average, and too small at its kinks.
         let squares = sum(&|i| weights[(i, 0)].powi(2));
         let surprise = sum(&|i| weights[(i, 0)].powi(2) * self.surprise[i]) / squares.max(1e-300);
         [value, variance.sqrt(), surprise]
     }
 
-    /// Returns deviations of the values at whole degrees that are independent of each other, scaled degree by degree:
-    /// what the covariance of what is not known is made of.
+    /// Returns independent deviations of the transmittances at whole degrees, scaled degree by degree: the eigenvectors
+    /// of the posterior covariance.
     fn modes(&self, scale: &[f64]) -> Option<Vec<Vec<f64>>> {
         let (n, count) = (self.known.len(), scale.len());
         let cosine = |degree: usize| (degree as f64).to_radians().cos();
@@ -290,6 +293,8 @@ impl<'a> Smooth<'a> {
     }
 }
 
+/// Fits the transmittance at whole degrees of incidence, with its uncertainties, to known values; `None` if they cannot
+/// be fitted. A value of 0 at 90° is added unless the data contradict it.
 fn transmittance(known: &[Known]) -> Option<AngularTransmittance> {
     let strongest = known.iter().map(|one| one.tau).fold(0.0, f64::max);
     let end = Known { theta: FRAC_PI_2, points: vec![(0.0, 1.0)], tau: 0.0, noise: AT_GRAZING * strongest };

@@ -1,9 +1,10 @@
-//! Matrices on other cells: means over the new incident and the new emergent cells, no flux lost.
+//! Resampling of patch-averaged data to other cells, with the flux conserved.
 
 use super::cell_matrix::CellMatrix;
 use crate::compute::basis::{Resampling, RingBasis, same_cells};
 
-/// Returns a matrix on other cells: means over the new incident and the new emergent cells.
+/// Returns patch-averaged data resampled to the cells of other bases: means of q over the new incident and emergent
+/// cells.
 pub fn resample_matrix(matrix: &CellMatrix, incident: &RingBasis, emergent: &RingBasis) -> CellMatrix {
     if matrix.incident() == incident && matrix.emergent() == emergent {
         return matrix.clone();

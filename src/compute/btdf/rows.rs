@@ -1,26 +1,27 @@
-//! Storage of indicatrices on the same cells: as plain values, or compact and made again on request.
+//! Storage of indicatrices on the same emergent cells: as plain values, or compressed by wavelets and restored on
+//! request.
 
 use crate::compute::wavelet::CompactRows;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-/// Indicatrices, one after the other.
+/// Luminance coefficients of indicatrices on the same emergent cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Rows {
-    /// Plain values, shared by those that hold the same. \[1/sr\]
+    /// Plain values in double precision. \[1/sr\]
     Plain(Arc<Vec<f64>>),
-    /// Very many plain values that f32 holds without loss: half the memory. \[1/sr\]
+    /// Plain values in single precision, for very many values that it holds without loss: half the memory. \[1/sr\]
     Single(Arc<Vec<f32>>),
-    /// Compact form, few numbers per row.
+    /// Indicatrices compressed by wavelets, few numbers per row.
     Compact(Arc<CompactRows>),
 }
 
-/// Number of values above which memory counts for more than the time that it takes to widen them: 64 MB. Chosen: cost
-/// only, no effect on results.
+/// Number of values above which single precision is used to save memory: 64 MB in double precision. Chosen: cost only,
+/// no effect on results.
 const MANY: usize = 1 << 23;
 
 impl Rows {
-    /// Creates rows from values one after the other.
+    /// Creates the storage from the values of all indicatrices, one after the other \[1/sr\].
     pub fn of(values: Vec<f64>) -> Self {
         if values.len() > MANY && values.iter().all(|value| f64::from(*value as f32).to_bits() == value.to_bits()) {
             return Self::Single(Arc::new(values.into_iter().map(|value| value as f32).collect()));
@@ -28,7 +29,7 @@ impl Rows {
         Self::Plain(Arc::new(values))
     }
 
-    /// Creates rows from values that were kept as f32.
+    /// Creates the storage from the values of all indicatrices in single precision \[1/sr\].
     pub fn of_single(values: Vec<f32>) -> Self {
         if values.len() > MANY {
             return Self::Single(Arc::new(values));
@@ -36,12 +37,12 @@ impl Rows {
         Self::Plain(Arc::new(values.into_iter().map(f64::from).collect()))
     }
 
-    /// Returns the sum of every row, with a weight for each of its values.
+    /// Returns the weighted sum of every indicatrix; `weight`: weight of each cell.
     pub fn sums(&self, rows: usize, weight: &[f64]) -> Vec<f64> {
         (0..rows).map(|k| self.row(k, weight.len()).iter().zip(weight).map(|(q, w)| q * w).sum()).collect()
     }
 
-    /// Returns one row of `n` values.
+    /// Returns the indicatrix with index `row`, of `n` values. \[1/sr\]
     pub fn row(&self, row: usize, n: usize) -> Cow<'_, [f64]> {
         match self {
             Self::Plain(values) => Cow::Borrowed(&values[row * n..(row + 1) * n]),
@@ -52,7 +53,7 @@ impl Rows {
         }
     }
 
-    /// Returns one value of a row of `n`.
+    /// Returns the value of one cell of the indicatrix with index `row`, of `n` values. \[1/sr\]
     pub fn value(&self, row: usize, cell: usize, n: usize) -> f64 {
         match self {
             Self::Plain(values) => values[row * n + cell],
@@ -61,7 +62,7 @@ impl Rows {
         }
     }
 
-    /// Returns all rows, one after the other.
+    /// Returns the values of all indicatrices, one after the other. \[1/sr\]
     pub fn all(&self) -> Cow<'_, [f64]> {
         match self {
             Self::Plain(values) => Cow::Borrowed(values),
@@ -70,7 +71,7 @@ impl Rows {
         }
     }
 
-    /// Returns the compact form, where it is one.
+    /// Returns the indicatrices compressed by wavelets; `None` for plain values.
     pub fn compact(&self) -> Option<&Arc<CompactRows>> {
         match self {
             Self::Plain(_) | Self::Single(_) => None,

@@ -1,24 +1,24 @@
-//! Solar band of data: the source of its values, and the mark that goes with them.
+//! Solar band of a dataset: the source of its values, and the mark of values that are partly visible ones.
 //!
-//! Data and descriptions without a solar band are used with their visible values, as [`SolarSource`] reports. Where a
-//! description gives solar properties of some of its materials only, the computed band is a mixture: the words
-//! [`PARTLY_VISIBLE`] stand in the dataset's own text then, which every format keeps, and make the finding of the same
-//! name whenever it is read.
+//! Datasets and descriptions without a solar band are used with their visible values; [`SolarSource`] reports this. If
+//! a description has solar properties for some of its materials only, the computed band is a mixture: the dataset's
+//! text, which every format stores, then contains the words [`PARTLY_VISIBLE`], from which the finding of the same name
+//! is created whenever the data are read.
 
 use super::{Band, Btdf, Dataset, Finding};
 
-/// Spectral band.
+/// Spectral band of BSDF data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum BandName {
-    /// Light, weighted by the eye.
+    /// Visible band: light, weighted by V(λ).
     #[default]
     Visible,
-    /// Solar radiation over its whole spectrum.
+    /// Solar band: solar radiation over its whole spectrum.
     Solar,
 }
 
 impl BandName {
-    /// Returns the key in files.
+    /// Returns the key of the band in files.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Visible => "Visible",
@@ -30,17 +30,17 @@ impl BandName {
 /// Source of the solar properties of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SolarSource {
-    /// Solar data of the system.
+    /// Complete solar data of the system.
     Own,
-    /// Solar data of the system, with the visible properties of materials that have none.
+    /// Solar data of the system, with visible properties for materials without solar ones.
     Partly,
-    /// Visible properties of the system.
+    /// Visible properties of the system, used as solar ones.
     Visible,
 }
 
 impl SolarSource {
-    /// Returns the source for a description, from the number of materials with solar properties of their own and the
-    /// number of all materials.
+    /// Returns the source for a described system from the number of its materials with solar properties and the number
+    /// of all its materials.
     pub const fn of([given, all]: [usize; 2]) -> Self {
         match (given, given < all) {
             (0, _) => Self::Visible,
@@ -49,7 +49,7 @@ impl SolarSource {
         }
     }
 
-    /// Returns the label in results.
+    /// Returns the English label of the source in results.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Own => "solar data",
@@ -59,11 +59,11 @@ impl SolarSource {
     }
 }
 
-/// Code of the finding, and the words in a dataset's text, of a solar band that is partly the visible one.
+/// Code of the finding and words in a dataset's text for a solar band that was partly computed from visible properties.
 pub const PARTLY_VISIBLE: [&str; 2] = ["solar-partly-visible", "Solar band: visible taken as solar for"];
 
 impl Dataset {
-    /// Returns the functions of a band; the visible ones where the data have not all of them as solar.
+    /// Returns the functions of a spectral band; those of the visible band if the solar one lacks any of them.
     pub fn band(&self, name: BandName) -> &Band {
         let whole = |solar: &&Band| self.visible.components().iter().all(|one| solar.get(*one).is_some());
         match (name, self.solar.as_ref().filter(whole)) {
@@ -72,7 +72,8 @@ impl Dataset {
         }
     }
 
-    /// Returns the transmission of light from outside in a band; the visible one where the data have no solar one.
+    /// Returns the transmission of light from outside in a spectral band; the visible one if there is no solar one,
+    /// `None` if there is none at all.
     pub fn transmission_of(&self, name: BandName) -> Option<&Btdf> {
         match (name, self.solar.as_ref().and_then(|solar| solar.transmission_front.as_ref())) {
             (BandName::Solar, Some(solar)) => Some(solar),
@@ -100,7 +101,8 @@ impl Dataset {
         }
     }
 
-    /// Marks a solar band for which materials without solar properties were taken by their visible ones.
+    /// Marks the solar band of a computed dataset as partly visible: materials without solar properties were computed
+    /// with their visible ones. Arguments: number of materials with solar properties, number of all materials.
     pub fn mark_partly_visible(&mut self, [given, all]: [usize; 2]) {
         let words = format!("{} {} of {all} materials.", PARTLY_VISIBLE[1], all.saturating_sub(given));
         if !self.description.is_empty() {
@@ -110,7 +112,8 @@ impl Dataset {
         self.report_partly_visible();
     }
 
-    /// Adds the finding of a mark that stands in the dataset's text; does nothing without one.
+    /// Adds the finding of a partly visible solar band if the dataset's text contains the mark and the finding does not
+    /// exist yet.
     pub fn report_partly_visible(&mut self) {
         let [code, words] = PARTLY_VISIBLE;
         let is_reported = self.findings.iter().any(|one| one.code == code);

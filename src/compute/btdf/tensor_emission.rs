@@ -1,4 +1,4 @@
-//! Light that a tensor tree emits: luminances and indicatrices, summed over the tree without ever making it dense.
+//! Luminances and indicatrices by a tensor tree, summed over its leaves without expanding it to a full matrix.
 
 use super::Indicatrix;
 use super::pyramid::Pyramid;
@@ -8,12 +8,13 @@ use crate::compute::direction::Incident;
 use std::f64::consts::PI;
 
 impl TensorTree {
-    /// Computes the emergent luminance \[cd/m²\] from the illuminance \[lx\] that arrives through every cell of
-    /// [`TensorTree::incident_grid`] (façade frame, row by row). Panics when the counts differ.
+    /// Computes the emergent luminance \[cd/m²\] from the illuminance \[lx\] of the system from every cell of
+    /// [`TensorTree::incident_grid`] (façade frame, row by row). Panics if the number of illuminances is not that of
+    /// the cells.
     ///
-    /// The result stands on [`RingBasis::equal_area`]: the emergent grid of the tree with straightened azimuth
-    /// borders, flux kept ring by ring (see [`SquareGrid::to_rings`]). Rank 3: the emergent distribution turns with
-    /// the azimuth of every incident cell, its light spread over the cell's width.
+    /// The result is given on [`RingBasis::equal_area`]: the emergent grid of the tree with straightened azimuth
+    /// borders, with the flux conserved ring by ring (see [`SquareGrid::to_rings`]). Rank 3: the emergent distribution
+    /// rotates with the azimuth of every incident cell, and is spread over the cell's width.
     pub fn luminance(&self, illuminance: &[f64]) -> (RingBasis, Vec<f64>) {
         let grid = self.incident_grid();
         assert_eq!(illuminance.len(), grid.len(), "one illuminance an incident cell");
@@ -24,8 +25,9 @@ impl TensorTree {
         (grid.rings(), luminance)
     }
 
-    /// Computes the luminance like [`TensorTree::luminance`], but on the emergent grid itself (façade frame, row by
-    /// row), where the tree has one that does not turn with the light: rank 4 only.
+    /// Computes the emergent luminance \[cd/m²\] from illuminances like [`TensorTree::luminance`], but on the emergent
+    /// square grid itself (façade frame, row by row); `None` for rank 3, whose emergent grid rotates with the incident
+    /// direction.
     pub fn luminance_on_grid(&self, illuminance: &[f64]) -> Option<Vec<f64>> {
         assert_eq!(illuminance.len(), self.incident_grid().len(), "one illuminance an incident cell");
         (self.rank() == TreeRank::Four).then(|| self.luminance_anisotropic(illuminance))
@@ -44,16 +46,16 @@ impl TensorTree {
         self.turned(&out.spread())
     }
 
-    /// Computes the emergent luminance \[cd/m²\] from light of one direction with the given illuminance \[lx\] on the
-    /// element.
+    /// Computes the emergent luminance \[cd/m²\] by light from one incident direction with the given illuminance of the
+    /// system \[lx\].
     pub fn sun_luminance(&self, incident: Incident, illuminance: f64) -> (RingBasis, Vec<f64>) {
         let Indicatrix { basis, mut q } = self.indicatrix(incident);
         q.iter_mut().for_each(|q| *q *= illuminance);
         (basis, q)
     }
 
-    /// Returns the emergent distribution of the incident cell that holds the direction, on [`RingBasis::equal_area`];
-    /// turned to the exact azimuth for rank 3. All zero for directions from behind.
+    /// Returns the emergent distribution of the incident cell that contains the direction, on
+    /// [`RingBasis::equal_area`]; rotated to the exact azimuth for rank 3. All values are 0 for z < 0.
     pub fn indicatrix(&self, incident: Incident) -> Indicatrix {
         let grid = self.incident_grid();
         let q = match (self.disk(incident.0), self.rank()) {
@@ -70,7 +72,8 @@ impl TensorTree {
         Indicatrix { basis: grid.rings(), q }
     }
 
-    /// Returns the emergent square, in the tree's axes, for one finest incident cell given by its incident coordinates.
+    /// Returns q on the emergent square, in the tree's axes, for one finest incident cell given by its incident
+    /// coordinates. \[1/sr\]
     fn slice(&self, incident: &[usize]) -> Vec<f64> {
         let mut out = Pyramid::new(self.incident_grid().level());
         self.slice_node(0, 0, incident, [0, 0], &mut out);
@@ -92,7 +95,8 @@ impl TensorTree {
         }
     }
 
-    /// Returns q on the ring cells for incidence in one ring of sinθ at façade azimuth 0 (rank 3).
+    /// Returns q on the ring cells for incident directions in one ring of sinθ at azimuth 0 of the façade frame (rank
+    /// 3). \[1/sr\]
     fn relative_row(&self, ring: usize) -> Vec<f64> {
         let grid = self.incident_grid();
         let resolution = grid.resolution();
@@ -103,7 +107,7 @@ impl TensorTree {
         grid.to_rings(&mirrored)
     }
 
-    /// Converts a grid in the tree's axes to the façade frame, or back.
+    /// Converts values on a grid in the tree's axes to the façade frame, or vice versa.
     fn turned(&self, values: &[f64]) -> Vec<f64> {
         let resolution = self.incident_grid().resolution();
         (0..values.len())
@@ -114,6 +118,8 @@ impl TensorTree {
             .collect()
     }
 
+    /// Computes the luminance of the emergent ring cells by the illuminances from the incident ring cells, for a tree
+    /// of rank 3. \[cd/m²\]
     fn luminance_isotropic(&self, illuminance: &[f64]) -> Vec<f64> {
         let grid = self.incident_grid();
         let rings = grid.resolution() / 2;
@@ -132,7 +138,8 @@ impl TensorTree {
                 }
                 for (t, e) in sectors(arriving, n).into_iter().enumerate().filter(|(_, e)| *e != 0.0) {
                     for (u, q) in q.iter().enumerate() {
-                        // Two sectors' widths add up: from (t + u) to (t + u + 2) sector widths, a triangle.
+                        // The azimuth of the sum of two sectors is distributed as a triangle from (t + u) to (t + u +
+                        // 2) sector widths.
                         let half = 0.5 * e * q;
                         l[(t + u) % n] += half;
                         l[(t + u + 1) % n] += half;
@@ -144,7 +151,7 @@ impl TensorTree {
     }
 }
 
-/// Returns the cells of one ring of [`RingBasis::equal_area`].
+/// Returns the range of the cells of one ring of [`RingBasis::equal_area`].
 fn ring_cells(ring: usize) -> std::ops::Range<usize> {
     4 * ring * ring..4 * (ring + 1) * (ring + 1)
 }
@@ -165,7 +172,8 @@ fn sectors(totals: &[f64], n: usize) -> Vec<f64> {
     out
 }
 
-/// Rotates ring values by an azimuth, split between the two sectors that a sector then touches.
+/// Returns values on ring cells rotated by an azimuth; the value of a sector is divided between the two sectors that it
+/// then overlaps.
 fn turn_rings(grid: SquareGrid, values: &[f64], phi: f64) -> Vec<f64> {
     let mut out = vec![0.0; values.len()];
     for ring in 0..grid.resolution() / 2 {

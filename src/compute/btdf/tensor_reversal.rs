@@ -1,14 +1,14 @@
-//! Tensor trees and reciprocity: the function for light in the opposite direction, and the difference of two trees.
+//! Reciprocity of tensor trees: the function for light in the opposite direction, and the difference of two trees.
 
 use super::tensor_tree::{TensorTree, TreeNode, TreeRank, radial_coordinate, rotate};
 use crate::compute::basis::{disk_from_square, square_from_disk};
 
 impl TensorTree {
-    /// Returns the function for light in the opposite direction, by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
+    /// Returns the transmission of light in the opposite direction by reciprocity: q_back(ω′, ω_e) = q_front(ω_e, ω′).
     ///
-    /// Rank 4: an exchange of the two squares, exact. Rank 3: the exchanged function is not a tree of the same cells;
-    /// it is averaged over them again (27 points per leaf), with τ for uniform light kept exactly. A rotationally
-    /// symmetric system is taken as mirror-symmetric too, as all that are measured or built are.
+    /// Rank 4: the two squares are exchanged, exactly. Rank 3: the exchanged function is not constant on the same
+    /// cells; it is averaged over them again (27 points per leaf), with the exact hemispherical transmittance. A
+    /// rotationally symmetric system is assumed to be mirror-symmetric, too.
     pub fn reversed(&self) -> Self {
         match self.rank() {
             TreeRank::Four => {
@@ -35,6 +35,7 @@ impl TensorTree {
         }
     }
 
+    /// Returns the tree of rank 3 for light in the opposite direction, scaled to the same hemispherical transmittance.
     fn reversed_isotropic(&self) -> Self {
         // Points along each coordinate of a leaf: the middles of its thirds. Chosen: cost; the flux is kept exactly.
         // Held by the test `reversing_a_rank_3_tree_keeps_smooth_functions`.
@@ -49,9 +50,9 @@ impl TensorTree {
                 let r_in = 1.0 - 2.0 * at(0, p);
                 for (u, v) in POINTS.iter().flat_map(|&u| POINTS.map(|v| (u, v))) {
                     let twin = disk_from_square([at(1, u), at(2, v)]);
-                    // Incidence at r_in along the axis, emergence at `twin`; asked the other way round:
-                    // incidence at |twin|, emergence at r_in, turned back by the azimuth of `twin`, and mirrored,
-                    // which changes nothing but keeps straight light on its side of the border at azimuth 0.
+                    // Incidence at r_in along the axis and emergence at `twin` become incidence at |twin| and emergence
+                    // at r_in, rotated back by the azimuth of `twin`; mirrored as well, which changes no value but
+                    // keeps undeviated light on its side of the border at azimuth 0.
                     let r_out = twin[0].hypot(twin[1]);
                     let [c, d] = square_from_disk(rotate([r_in, 0.0], twin[1].atan2(twin[0])));
                     sum += r_in * self.leaf(&[radial_coordinate([r_out, 0.0]), c, d]);
@@ -74,7 +75,7 @@ impl TensorTree {
         tree
     }
 
-    /// Returns the weighted mean relative difference from another tree of the same rank, as in
+    /// Returns the mean relative difference from another tree of the same rank, weighted like in
     /// [`super::reciprocity_error`]; `None` for different ranks.
     pub(super) fn relative_difference(&self, other: &Self) -> Option<f64> {
         if self.rank() != other.rank() {
@@ -117,7 +118,8 @@ impl TensorTree {
     }
 }
 
-/// Builds a full tree of means, with equal children merged and the unused half left zero.
+/// Builds a full tree of rank 3 from the means of its finest boxes, with equal children merged and 0 in the unused half
+/// of the first coordinate.
 pub(super) fn build_isotropic(
     levels_below: u32,
     corner: [usize; 3],

@@ -1,33 +1,33 @@
-//! Data of makers' files on a product besides its light: for heat balances and frames of other programs.
+//! Thermal data of a product and size of its sample, for other programs.
 //!
-//! Nothing here takes part in a computation of light. It is kept so that a file that is read and written again still
-//! says what was measured.
+//! Computations of light do not use these data. They are stored so that a file that is read and written again still
+//! contains them.
 
-/// Key of a thermal value or extent.
+/// Key of a thermal property, or of a dimension of the sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ThermalKey {
     /// Thermal conductivity across the product. \[W/(m K)\]
     Conductivity,
-    /// Volume of air that passes, in the unit of the source file.
+    /// Air permeability of the product, in the unit of the source file.
     AirPermeability,
-    /// Hemispherical emissivity towards outside at long wavelengths.
+    /// Hemispherical emissivity of the outside at long wavelengths, 0 … 1.
     EmissivityFront,
-    /// Hemispherical emissivity towards the room at long wavelengths.
+    /// Hemispherical emissivity of the room side at long wavelengths, 0 … 1.
     EmissivityBack,
-    /// Transmittance at long wavelengths.
+    /// Transmittance at long wavelengths, 0 … 1.
     InfraredTransmittance,
-    /// Share of the area that is open to air, as effective for the flow through it.
+    /// Effective openness: share of the area that is open to the flow of air, 0 … 1.
     EffectiveOpenness,
-    /// Share of the area that is open, as measured; WINDOW's permeability factor.
+    /// Measured share of the area that is open, 0 … 1; WINDOW's permeability factor.
     Permeability,
-    /// Extent of the specimen to the side. \[m\]
+    /// Width of the sample. \[m\]
     Width,
-    /// Extent of the specimen upwards. \[m\]
+    /// Height of the sample. \[m\]
     Height,
 }
 
 impl ThermalKey {
-    /// All keys, in the order of files and listings.
+    /// Keys of all properties, in the order of files and listings.
     pub const ALL: [Self; 9] = [
         Self::Conductivity,
         Self::AirPermeability,
@@ -40,7 +40,7 @@ impl ThermalKey {
         Self::Height,
     ];
 
-    /// Returns the name in sentences.
+    /// Returns the English name of the property in sentences.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Conductivity => "conductivity",
@@ -55,7 +55,7 @@ impl ThermalKey {
         }
     }
 
-    /// Returns the key in JSON, with the unit where there is one.
+    /// Returns the key of the property in JSON, with its unit if it has one.
     pub const fn json(self) -> &'static str {
         match self {
             Self::Conductivity => "conductivity_w_mk",
@@ -70,7 +70,7 @@ impl ThermalKey {
         }
     }
 
-    /// Returns the largest valid value: 1 for shares.
+    /// Returns the maximum valid value of the property: 1 for shares.
     pub const fn most(self) -> f64 {
         match self {
             Self::EmissivityFront
@@ -83,23 +83,23 @@ impl ThermalKey {
     }
 }
 
-/// Thermal data and extents, as far as a source gives them. The thickness stands in
-/// [`Dataset::thickness`](super::Dataset::thickness), since light needs it too.
+/// Thermal data of a product and size of its sample, as far as the source specifies them. The thickness is in
+/// [`Dataset::thickness`](super::Dataset::thickness).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Thermal {
-    /// Kind of device in the words of LBNL's schema, e.g. `Woven shade`; empty where none is given.
+    /// Device type in the terms of LBNL's schema, e.g. `Woven shade`; empty if not specified.
     pub device: String,
     values: [Option<f64>; ThermalKey::ALL.len()],
 }
 
 impl Thermal {
-    /// Returns one of the values.
+    /// Returns the value of a property; `None` if not specified.
     pub const fn get(&self, key: ThermalKey) -> Option<f64> {
         self.values[key as usize]
     }
 
-    /// Sets one of the values; what is negative, not finite or above [`ThermalKey::most`] is not stored and gives
-    /// `false`.
+    /// Sets the value of a property. Returns `false` without storing it if it is negative, not finite or above
+    /// [`ThermalKey::most`].
     pub fn set(&mut self, key: ThermalKey, value: f64) -> bool {
         let sound = value.is_finite() && value >= 0.0 && value <= key.most();
         if sound {
@@ -108,17 +108,17 @@ impl Thermal {
         sound
     }
 
-    /// Whether no value is known.
+    /// Whether neither a device type nor any value is specified.
     pub fn is_empty(&self) -> bool {
         self.device.is_empty() && self.values.iter().all(Option::is_none)
     }
 
-    /// Returns the known values, in the order of [`ThermalKey::ALL`].
+    /// Returns the specified properties with their values, in the order of [`ThermalKey::ALL`].
     pub fn known(&self) -> impl Iterator<Item = (ThermalKey, f64)> {
         ThermalKey::ALL.into_iter().filter_map(|key| Some((key, self.get(key)?)))
     }
 
-    /// Returns the data of the product seen from the other side.
+    /// Returns the data of the product mounted the other way round: front and back emissivity exchanged.
     #[must_use]
     pub fn swapped(mut self) -> Self {
         self.values.swap(ThermalKey::EmissivityFront as usize, ThermalKey::EmissivityBack as usize);

@@ -1,25 +1,27 @@
-//! Shares of transmitted light by the elevation at which it leaves.
+//! Shares of transmitted light by the elevation of the emergent direction.
 //!
-//! The regular part leaves as it came; the scattered part is summed over the emergent cells. A cell that straddles a
-//! limit is split by projected solid angle, on points that are even in it; one that cannot straddle is taken whole.
+//! Regular transmission leaves undeviated; scattered light is summed over the emergent cells. A cell that straddles a
+//! limit is divided by projected solid angle, on points that are distributed uniformly in it; other cells count as a
+//! whole.
 
 use super::Btdf;
 use crate::compute::direction::{Dir, Incident};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Minimum number of points on a whole hemisphere. Misses a straight limit by less than 1 % of the flux; held by the
+/// Minimum number of points on a whole hemisphere. A straight limit is met to less than 1 % of the flux; held by the
 /// test `an_ideal_diffuser_fills_segments_of_a_disc`.
 const POINTS: usize = 40_000;
 
-/// Returns the shares of the incident light that leave above each limit of elevation and below the one before it, and
-/// below the last: `N` limits \[rad\], falling, give `N + 1` shares, whose sum is τ of the incidence.
+/// Returns the shares of the incident flux that leave in zones of elevation: above the first limit, between consecutive
+/// limits, and below the last. `limits`: elevations \[rad\], falling. The sum of the `N + 1` shares is τ of the
+/// incident direction.
 ///
-/// `up`: the vertical in the frame of the data (façade: y; roof: z).
+/// `up`: unit vector upwards in the façade frame (in a façade y, in a roof z).
 pub fn zone_shares<const N: usize>(btdf: &Btdf, incident: Incident, up: DVec3, limits: [f64; N]) -> Vec<f64> {
     let mut shares = vec![0.0; N + 1];
     let sines = limits.map(f64::sin);
-    // A through-name points back to where the light seems to come from: light of a high name goes down.
+    // A direction of undeviated light is opposite to the propagation: above the horizon, light goes down.
     let zone = |through_name: DVec3| {
         let elevation = -through_name.dot(up);
         sines.iter().position(|sine| elevation >= *sine).unwrap_or(N)
@@ -33,7 +35,8 @@ pub fn zone_shares<const N: usize>(btdf: &Btdf, incident: Incident, up: DVec3, l
     let elevations = limits.map(|limit| limit.clamp(-FRAC_PI_2, FRAC_PI_2));
     for (cell, q) in indicatrix.basis.cells().zip(&indicatrix.q).filter(|(_, q)| **q > 0.0) {
         let share = q * cell.projected_solid_angle();
-        // No point of a cell is farther from its middle than along its meridian and then around.
+        // Upper bound of the angle from a cell's middle to any of its points: half its extent in θ plus half its arc in
+        // φ.
         let middle = Dir::<()>::from_theta_phi(0.5 * (cell.theta_min + cell.theta_max), cell.phi).vector();
         let around = cell.theta_max.min(FRAC_PI_2).sin() * 0.5 * cell.width;
         let reach = 0.5 * (cell.theta_max - cell.theta_min) + around;

@@ -7,23 +7,23 @@ use super::curve::{curve_range, curve_value, redirecting_tilt, retro_tilt};
 use super::cut_off::SlatRow;
 use super::states::{by_openness, most_closed, most_open, nearest, towards_closed};
 
-/// Method by which a demanded value is rounded to a state.
+/// Method by which the value that a control rule demands (e.g. a tilt) is rounded to one of the device's states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
-    /// The least closed state whose value reaches the demanded one.
+    /// Rounding to the least closed state whose value is at least the demanded one.
     Closed,
-    /// State whose value is nearest to the demanded one.
+    /// Rounding to the state with the value nearest to the demanded one.
     Nearest,
 }
 
-/// Daily period in which one state is held by the clock.
+/// Daily period of a schedule during which the device stays in one state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Period {
-    /// Hour of the day at which the period begins. \[h\]
+    /// Local hour of the day at which the period begins. \[h\]
     pub from: f64,
-    /// Hour of the day at which the period ends. \[h\] A value before `from` means a period over midnight.
+    /// Local hour of the day at which the period ends. \[h\] A value before `from` means a period over midnight.
     pub to: f64,
-    /// Index of the state that is held.
+    /// Index of the state of the device during the period.
     pub state: usize,
 }
 
@@ -32,59 +32,64 @@ pub struct Period {
 pub enum Rule {
     /// Cut-off control: the most open state that lets no direct light through.
     CutOff {
-        /// Section of the slats.
+        /// Vertical section of the row of slats.
         section: SlatRow,
-        /// Deviation of the tilt from its set value that the cut-off has to bear. \[rad\]
+        /// Deviation of the tilt from its set value within which the slats must still block direct light. \[rad\]
         tolerance: f64,
     },
-    /// Closed state while the façade gets direct sun (DIN 5034).
+    /// Closed state while the sun shines on the façade (DIN 5034).
     Din5034,
-    /// Control curve: a table of (profile angle, value), profile angles rising, and the rounding to a state.
+    /// Control curve: points (profile angle \[rad\], value in the unit of the states), profile angles rising, linear
+    /// between them, and the rounding to a state.
     Curve(Vec<(f64, f64)>, Rounding),
-    /// Mirror slats that reflect the sun back towards it.
+    /// Tilt at which mirror slats reflect direct sunlight back towards the sun, and its rounding to a state.
     RetroReflect(Rounding),
-    /// Mirror slats that redirect the sun into the room at a given elevation. \[rad\]
+    /// Tilt at which mirror slats redirect direct sunlight into the room at a given elevation above the horizontal
+    /// \[rad\], and its rounding to a state.
     Redirect(f64, Rounding),
-    /// One state at all times.
+    /// Fixed state, by its index, at all times.
     Fixed(usize),
-    /// Schedule of daily periods; the state given first holds between the periods.
+    /// Schedule of daily periods. The first field is the index of the state outside all periods.
     User(usize, Vec<Period>),
-    /// Table of (seconds since the beginning of the year, index of the state), times rising. Each row holds until the
-    /// next, the last to the end of the year.
+    /// Table of (seconds since the beginning of the year, index of the state), times rising. Each row applies until the
+    /// next begins, the last until the end of the year.
     Table(Vec<(f64, usize)>),
 }
 
-/// All settings of a controller.
+/// Settings of a shading controller: states of the device, rule, thresholds, hysteresis and dwell time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
-    /// Values of the device's states, in their own unit; tilts in radians.
+    /// Value of each state of the device: tilts in radians, others in the unit of the product.
     pub values: Vec<f64>,
     /// Control rule that the controller follows.
     pub rule: Rule,
-    /// Index of the state chosen by [`Rule::Din5034`] and above `close_above`.
+    /// Index of the state that [`Rule::Din5034`] and the limit `close_above` close to.
     pub closed: usize,
     /// Index of the state by day without direct sun.
     pub open: usize,
     /// Index of the state while the sun is below the horizon.
     pub night: usize,
-    /// Direct illuminance of the façade above which there is direct sun. \[lx\]
+    /// Illuminance of the façade by direct sun above which the rule for direct sun applies. \[lx\]
     pub threshold: f64,
-    /// Global illuminance of the façade above which the device closes, whatever the rule. \[lx\]
+    /// Illuminance of the façade by sun, sky and ground above which the device closes, whatever the rule; `None`: no
+    /// such limit. \[lx\]
     pub close_above: Option<f64>,
-    /// Indoor illuminance below which the device closes no further than the rule's slats do: undoes what
-    /// [`Rule::Din5034`] and `close_above` closed. \[lx\]
+    /// Indoor illuminance below which [`Rule::Din5034`] and `close_above` do not close the device; `None`: no such
+    /// limit. \[lx\]
     pub open_below: Option<f64>,
-    /// Share of a threshold at which it is released again, 0 … 1; for `open_below` the inverse of that share.
+    /// Ratio, 0 … 1, of the illuminance at which a threshold is released again to that at which it takes effect; for
+    /// `open_below` its inverse.
     pub release: f64,
-    /// Hysteresis: how much more open than the present state the rule must be before the device opens, in the unit of
-    /// the values.
+    /// Hysteresis: difference by which the demanded value must be more open than the current state before the device
+    /// opens, in the unit of `values`.
     pub hysteresis: f64,
-    /// Dwell time: minimum time between a movement and the next opening. \[s\]
+    /// Dwell time: minimum time between a change of state and the next opening. \[s\]
     pub dwell: f64,
 }
 
 impl Settings {
-    /// Creates settings from a rule, without thresholds, hysteresis and dwell time. `None` without states.
+    /// Creates settings from the values of the states and a rule, without thresholds, hysteresis and dwell time. `None`
+    /// without states.
     pub fn new(values: Vec<f64>, rule: Rule) -> Option<Self> {
         let (open, closed) = (most_open(&values)?, most_closed(&values)?);
         Some(Self {
@@ -104,9 +109,9 @@ impl Settings {
 }
 
 impl Settings {
-    /// Returns the control curve over profile angles from 0 to 90° in steps of 1°, for a sun without extent, limited to
-    /// the values of the device: the curve of diagrams. \[rad\] Tables are returned unchanged; the list is empty for
-    /// rules without a curve.
+    /// Returns the control curve for diagrams: points (profile angle \[rad\], demanded value in the unit of the states)
+    /// from 0 to 90° in steps of 1°, for a point-like sun, limited to the range of the states' values. A curve that is
+    /// given as a table is returned unchanged; the list is empty for rules without a curve.
     pub fn curve(&self) -> Vec<(f64, f64)> {
         let range = self.range();
         let sampled = |value: &dyn Fn(f64) -> Option<f64>| {
@@ -128,12 +133,12 @@ impl Settings {
     }
 }
 
-/// Inputs of the controller: readings of its sensors and clock.
+/// Inputs of the controller at one time step: clock, position of the sun, and illuminances of its sensors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Inputs {
-    /// Local hour of the day. \[h\]
+    /// Local hour of the day, 0 … 24. \[h\]
     pub hour: f64,
-    /// Seconds since the beginning of the year, local standard time, in a calendar of 366 days; `None` without a date.
+    /// Time since the beginning of the year, in local standard time and a calendar of 366 days; `None` without a date.
     /// \[s\]
     pub of_year: Option<f64>,
     /// Whether any part of the sun is above the horizon.
@@ -141,11 +146,11 @@ pub struct Inputs {
     /// Profile angles of the sun's centre and of its visible disc; `None` while no part of it is in front of the
     /// façade. \[rad\]
     pub sun: Option<SunAt>,
-    /// Illuminance of the façade by direct sun. \[lx\]
+    /// Illuminance on the façade by direct sun. \[lx\]
     pub facade_direct: f64,
-    /// Illuminance of the façade by sun, sky and ground. \[lx\]
+    /// Illuminance on the façade by sun, sky and ground together. \[lx\]
     pub facade_global: f64,
-    /// Reading of the sensor in the room, if there is one. \[lx\]
+    /// Illuminance at the indoor sensor of the controller, if there is one. \[lx\]
     pub indoor: Option<f64>,
 }
 
@@ -158,27 +163,27 @@ pub struct SunAt {
     pub span: [f64; 2],
 }
 
-/// Reason for the choice of a state.
+/// Reason for the state that the controller demands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reason {
-    /// State of a rule with one fixed state.
+    /// Rule with one fixed state.
     Fixed,
-    /// State of a schedule or table.
+    /// Rule that takes the state from a schedule or table.
     Schedule,
     /// Sun below the horizon.
     Night,
     /// Day without direct sun on the façade.
     NoSun,
-    /// Direct sun, for which the rule was followed.
+    /// Direct sun on the façade: state by the control rule.
     Sun,
-    /// Façade brighter than [`Settings::close_above`].
+    /// Illuminance of the façade above [`Settings::close_above`].
     Bright,
-    /// Room darker than [`Settings::open_below`].
+    /// Indoor illuminance below [`Settings::open_below`].
     Dark,
 }
 
 impl Reason {
-    /// Returns the key of the reason in tables.
+    /// Returns the key of the reason in CSV and JSON tables.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Fixed => "fixed",
@@ -192,22 +197,23 @@ impl Reason {
     }
 }
 
-/// Result of one time step of the controller.
+/// Result of one time step of the controller: state, demanded value and reason.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Decision {
-    /// Index of the state.
+    /// Index of the state that the device takes.
     pub state: usize,
-    /// Value that the rule demands without regard to the states; `None` where it demands none.
+    /// Value that the rule demands before rounding to a state, in the unit of the states (tilts in radians); `None`
+    /// where it demands none.
     pub demanded: Option<f64>,
-    /// Reason for the state demanded.
+    /// Reason for the state demanded, before hysteresis and dwell time.
     pub reason: Reason,
-    /// Whether the state differs from that of the step before.
+    /// Whether the state differs from that of the previous time step.
     pub moved: bool,
-    /// Whether hysteresis or dwell time prevents the demanded state.
+    /// Whether hysteresis or dwell time keeps the device from the demanded state.
     pub held: bool,
 }
 
-/// Controller of a device, stepped through time.
+/// Controller of a shading device, stepped through time; it remembers the current state and the thresholds in effect.
 #[derive(Debug, Clone)]
 pub struct Controller {
     settings: Settings,
@@ -226,7 +232,7 @@ struct Wanted {
 }
 
 impl Controller {
-    /// Creates a controller without a state: the first step takes the demanded state.
+    /// Creates a controller without a current state: its first step takes the demanded state at once.
     pub const fn new(settings: Settings) -> Self {
         Self { settings, state: None, moved_at: f64::NEG_INFINITY, lit: false, bright: false, dark: false }
     }
@@ -236,7 +242,7 @@ impl Controller {
         &self.settings
     }
 
-    /// Computes the state at `time` \[s\], which must not decrease from step to step.
+    /// Computes the state of the device at `time` \[s\], which must not decrease from step to step.
     pub fn step(&mut self, time: f64, inputs: &Inputs) -> Decision {
         self.read(inputs);
         let wanted = self.wanted(inputs, 0.0);
@@ -259,7 +265,7 @@ impl Controller {
         Decision { state, demanded: wanted.demanded, reason: wanted.reason, moved, held: state != wanted.state }
     }
 
-    /// Updates the threshold flags from the inputs, with their release.
+    /// Updates the flags of thresholds in effect from the inputs, with the ratio at which they are released.
     fn read(&mut self, inputs: &Inputs) {
         let s = &self.settings;
         let above = |was: bool, limit: f64, value: f64| value > if was { limit * s.release } else { limit };
@@ -312,7 +318,8 @@ impl Controller {
         by_rule
     }
 
-    /// Returns the demanded value and state of the rule in direct sun.
+    /// Returns the value that the rule demands in direct sun and the index of its state; `margin`
+    /// \[unit of the values\] closes it further.
     fn in_sun(&self, sun: SunAt, margin: f64) -> (Option<f64>, usize) {
         let s = &self.settings;
         let rounded = |value: f64, rounding: Rounding| match rounding {
@@ -346,7 +353,8 @@ impl Controller {
         (demanded, state.unwrap_or(s.closed))
     }
 
-    /// Returns the index of the state after hysteresis and dwell time.
+    /// Returns the index of the state that hysteresis and dwell time allow, for the current state `now` and the
+    /// demanded one `wanted`.
     fn weighed(&self, now: usize, wanted: &Wanted, time: f64, inputs: &Inputs) -> usize {
         let s = &self.settings;
         if wanted.state == now || matches!(wanted.reason, Reason::Fixed | Reason::Schedule) {
@@ -377,7 +385,8 @@ impl Controller {
         if closes(careful) { now } else { careful }
     }
 
-    /// Whether state `a` is more open than state `b`, in the order by which the rule rounds.
+    /// Whether state `a` is more open than state `b` by the order of the rule: nearer to 0 for cut-off and DIN 5034, of
+    /// smaller value for curves.
     fn more_open(&self, a: usize, b: usize) -> bool {
         let (a, b) = (self.settings.values[a], self.settings.values[b]);
         match self.settings.rule {

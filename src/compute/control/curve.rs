@@ -2,8 +2,9 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Returns the value of a piecewise linear curve of (profile angle, value) points at a profile angle, profile angles
-/// rising; constant beyond the ends. `None` without points.
+/// Returns the value of a piecewise linear control curve at the profile angle `at`. \[unit of the points' values\]
+/// `points` are (profile angle \[rad\], value) with rising profile angles; the curve is constant beyond its ends.
+/// `None` without points.
 pub fn curve_value(points: &[(f64, f64)], at: f64) -> Option<f64> {
     let (first, last) = (points.first()?, points.last()?);
     if at <= first.0 {
@@ -17,22 +18,23 @@ pub fn curve_value(points: &[(f64, f64)], at: f64) -> Option<f64> {
     Some(if x1 > x0 { y0 + (y1 - y0) * (at - x0) / (x1 - x0) } else { y1 })
 }
 
-/// Returns the minimum and maximum value of a piecewise linear curve between two profile angles. `None` without points.
+/// Returns the minimum and maximum value of a piecewise linear control curve between the profile angles `low` and
+/// `high`. \[unit of the points' values\] `points` are (profile angle \[rad\], value). `None` without points.
 pub fn curve_range(points: &[(f64, f64)], [low, high]: [f64; 2]) -> Option<[f64; 2]> {
     let ends = [curve_value(points, low)?, curve_value(points, high)?];
     let inside = points.iter().filter(|point| (low..=high).contains(&point.0)).map(|point| point.1);
     Some(inside.fold([ends[0].min(ends[1]), ends[0].max(ends[1])], |[a, b], value| [a.min(value), b.max(value)]))
 }
 
-/// Returns the tilt of a mirror slat that reflects light of profile angle `psi` back towards its source: the slat
-/// stands across the beam, β = 90° − ψ. \[rad\]
+/// Returns the tilt of a mirror slat that reflects light of profile angle `psi` \[rad\] back towards its source: the
+/// slat is perpendicular to the beam, β = 90° − ψ. \[rad\]
 pub fn retro_tilt(psi: f64) -> f64 {
     FRAC_PI_2 - psi
 }
 
-/// Returns the tilt of a mirror slat whose upper face redirects light of profile angle `psi` into the room at
-/// `elevation` above the horizontal: reflection turns the light's path by twice the slat's angle, elevation = 2β + ψ.
-/// \[rad\]
+/// Returns the tilt of a mirror slat whose upper face redirects light of profile angle `psi` \[rad\] into the room at
+/// `elevation` above the horizontal \[rad\]: reflection turns the light's path by twice the slat's angle, elevation =
+/// 2β + ψ. \[rad\]
 pub fn redirecting_tilt(psi: f64, elevation: f64) -> f64 {
     0.5 * (elevation - psi)
 }

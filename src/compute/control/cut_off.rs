@@ -1,9 +1,9 @@
 //! Tilts at which slats let no direct light through.
 //!
-//! Shadows of neighbouring slats across a beam of profile angle ψ repeat every s cosψ; light passes between them
-//! unless a slat's extent across the beam is that long: extent(β + ψ) ≥ s cosψ. Flat slats and arcs have an extent that
-//! grows with the angle α = β + ψ between beam and chord alone, so the tilts to avoid are an open interval about −ψ and
-//! its turns by 180°:
+//! Shadows of neighbouring slats across a beam of profile angle ψ repeat every s cosψ; light passes between them unless
+//! a slat's extent across the beam is that long: extent(β + ψ) ≥ s cosψ. The extent of flat slats and arcs depends on
+//! the angle α = β + ψ between beam and chord alone and grows with it, so that the tilts to avoid are an open interval
+//! about −ψ and its repetitions every 180°:
 //!
 //! * flat, chord w:                       extent = w sin|α|
 //! * arc, radius R, half opening η:       extent = R (1 − cos(η + |α|)) for |α| ≤ η, by the point where the beam
@@ -14,10 +14,10 @@
 use crate::compute::system::slats::{SlatArray, SlatProfile, Venetian, arc};
 use std::f64::consts::PI;
 
-/// Section of a row of slats, infinitely many and infinitely long.
+/// Vertical section of a row of equal slats, infinitely many and infinitely long.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlatRow {
-    /// Shape of a slat at tilt 0.
+    /// Profile of a slat at tilt 0.
     pub profile: SlatProfile,
     /// Vertical pitch of the slats. \[m\]
     pub spacing: f64,
@@ -25,7 +25,7 @@ pub struct SlatRow {
     reach: f64,
 }
 
-/// Tilts that let direct light through: between two limits and those turned by any number of half turns. \[rad\]
+/// Tilts that let direct light through: those between two limits, repeated every half turn. \[rad\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Avoid {
     Nothing,
@@ -36,13 +36,13 @@ enum Avoid {
 /// Difference below which two angles count as equal. \[rad\] Above the rounding of sums of angles (a few 2⁻⁵² · π ≈
 /// 7e-16); held by the test `spans_and_tolerances_are_kept_whole`, by which less than 1e-8 of direct light passes.
 const SLACK: f64 = 1e-10;
-/// Step of the search for tilts of polylines: 0.25°. \[rad\] Chosen: cost; tilts that block over less than a step may
-/// be missed, for a more closed one.
+/// Step of the search for the cut-off tilt of polyline slats: 0.25°. \[rad\] Chosen: cost; ranges of blocking tilts
+/// narrower than a step may be missed, and a more closed tilt found instead.
 const STEP: f64 = PI / 720.0;
 
 impl SlatRow {
-    /// Creates a row of slats from profile and pitch. `None` if a length is not above 0 and finite, an arc is more than
-    /// a semicircle, or a polyline has fewer than two different points.
+    /// Creates a row of slats from the profile of a slat and the vertical pitch `spacing` \[m\]. `None` if a length is
+    /// not above 0 and finite, an arc is more than a semicircle, or a polyline has fewer than two different points.
     pub fn new(profile: SlatProfile, spacing: f64) -> Option<Self> {
         let length = |x: f64| x > 0.0 && x.is_finite();
         let sane = match &profile {
@@ -58,8 +58,8 @@ impl SlatRow {
         (sane && length(spacing)).then_some(Self { profile, spacing, reach })
     }
 
-    /// Creates the row of slats of a described blind, their thickness included: all corners of a solid slat's outline,
-    /// which block light as the slat does. `None` as for [`new`](Self::new).
+    /// Creates the row of slats of a described blind, their thickness included: a solid slat is represented by all
+    /// corners of its outline, which block the same light. Returns `None` in the cases of [`new`](Self::new).
     pub fn of(blind: &Venetian) -> Option<Self> {
         let thick = (blind.thickness > 0.0)
             .then(|| {
@@ -71,13 +71,14 @@ impl SlatRow {
         Self::new(solid.unwrap_or_else(|| blind.profile.clone()), blind.spacing)
     }
 
-    /// Returns the share of light of a profile angle that passes directly between slats of a tilt. Angles in \[rad\].
+    /// Returns the share, 0 … 1, of direct light with profile angle `psi` \[rad\] that passes between the slats at the
+    /// given `tilt` \[rad\].
     pub fn direct_share(&self, tilt: f64, psi: f64) -> f64 {
         self.profile.open_share(tilt, self.spacing, psi)
     }
 
-    /// Whether all direct light of the profile angles `span` is blocked by every tilt within `tolerance` of `tilt`.
-    /// \[rad\]
+    /// Whether the slats block all direct light with profile angles between the two of `span`, at every tilt within
+    /// `tolerance` of `tilt`. Angles are in \[rad\].
     pub fn blocks(&self, tilt: f64, tolerance: f64, span: [f64; 2]) -> bool {
         match self.avoid(span) {
             Some(Avoid::Nothing) => true,
@@ -92,8 +93,9 @@ impl SlatRow {
         }
     }
 
-    /// Returns the most open tilt of `range` (nearest to 0; of two equally open ones the positive) that blocks all
-    /// profile angles of `span`, even when it is off by `tolerance`. \[rad\] `None` where no tilt does.
+    /// Returns the cut-off tilt: the most open tilt within `range` (nearest to 0; of two equally open ones the
+    /// positive) that blocks direct light with all profile angles between the two of `span`, even if the tilt deviates
+    /// by `tolerance`. Angles are in \[rad\]. `None` if no tilt does.
     pub fn cut_off(&self, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
         let start = 0.0_f64.clamp(range[0], range[1]);
         match self.avoid(span) {
@@ -114,8 +116,8 @@ impl SlatRow {
         }
     }
 
-    /// Returns the tilts that let direct light of any profile angle of a span through; `None` for polylines, which have
-    /// no closed form.
+    /// Returns the tilts at which direct light of any profile angle between the two of `span` \[rad\] passes; `None`
+    /// for polylines, which have no closed form.
     fn avoid(&self, span: [f64; 2]) -> Option<Avoid> {
         let s = self.spacing;
         // Least extent, the extent up to which the beam touches the arc, and the profile angle of a stationary limit.
@@ -147,8 +149,8 @@ impl SlatRow {
         Some(if limits[1] - limits[0] >= PI { Avoid::Everything } else { Avoid::Between(limits[0], limits[1]) })
     }
 
-    /// Returns the minimum angle between beam and chord at which the extent reaches `needed` \[m → rad\]; `None` where
-    /// it never does.
+    /// Returns the minimum angle between beam and chord \[rad\] at which a slat's extent across the beam reaches
+    /// `needed` \[m\]; `None` if it never does.
     fn critical(&self, needed: f64) -> Option<f64> {
         let flat = |width: f64| (needed <= width * (1.0 + 1e-12)).then(|| (needed / width).min(1.0).asin());
         match self.profile {
@@ -165,8 +167,9 @@ impl SlatRow {
         }
     }
 
-    /// Whether the extent is long enough over a rectangle of tilts and profile angles. Both it and the pitch across the
-    /// beam change no faster than the longest of their parts, so that one value bounds its neighbourhood.
+    /// Whether the slats block direct light for all tilts between the two of `tilts` and all profile angles between the
+    /// two of `span` \[rad\]. The extent of a slat and the pitch across the beam change no faster with the angles than
+    /// `reach` and the pitch, so that one value bounds its neighbourhood.
     fn blocks_by_search(&self, tilts: [f64; 2], span: [f64; 2]) -> bool {
         let reach = self.reach;
         let surplus = |tilt: f64, psi: f64| self.profile.extent(tilt + psi) - self.spacing * psi.cos();
@@ -192,8 +195,8 @@ impl SlatRow {
         true
     }
 
-    /// Searches the cut-off tilt from the most open one outwards in both senses, in steps, then by bisection. Tilts
-    /// that block over less than a step (0.25°) may be missed: the result is then a more closed one.
+    /// Searches the cut-off tilt from the most open tilt `start` towards both ends of `range` \[rad\] in steps, then by
+    /// bisection. Ranges of blocking tilts narrower than a step (0.25°) may be missed; the result is then more closed.
     fn cut_off_by_search(&self, start: f64, range: [f64; 2], tolerance: f64, span: [f64; 2]) -> Option<f64> {
         let blocks = |tilt: f64| self.blocks(tilt, tolerance, span);
         if blocks(start) {
@@ -217,8 +220,8 @@ impl SlatRow {
     }
 }
 
-/// Returns the maximum distance between two points of a polyline; for other profiles the chord, which the extent never
-/// exceeds.
+/// Returns the maximum distance between two points of a polyline slat \[m\]; for other profiles the chord, which the
+/// extent across a beam never exceeds.
 fn diameter(profile: &SlatProfile) -> f64 {
     match profile {
         SlatProfile::Flat { width } | SlatProfile::Arc { width, .. } => *width,

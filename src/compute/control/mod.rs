@@ -2,8 +2,8 @@
 //! controller that follows them through time.
 //!
 //! * [`cut_off`]: tilts that let no direct light through, for any section of slats;
-//! * [`curve`]: demanded values over the profile angle: tables, and mirror slats that reflect back or redirect;
-//! * [`states`]: choice of a device's state for a demanded value;
+//! * [`curve`]: demanded values over the profile angle: tables, and mirror slats that retro-reflect or redirect;
+//! * [`states`]: choice of a device's state from a demanded value;
 //! * [`controller`]: thresholds, hysteresis, dwell time, night.
 //!
 //! Tilts β and profile angles ψ are in radians; β > 0 lowers the outer edge. Values of states that are not angles keep

@@ -1,11 +1,12 @@
 //! Choice of one of a device's states for a demanded value.
 
-/// Difference below which two values count as equal. \[rad, or the state's own unit\] Above the rounding of degrees
-/// converted to radians, below any tilt that a device distinguishes.
+/// Difference below which a state's value counts as equal to the demanded one. \[rad, or the state's own unit\] Above
+/// the rounding of degrees converted to radians, below any tilt that a device distinguishes.
 const SLACK: f64 = 1e-9;
 
-/// Returns the index of the state for a demanded value: the least closed one that reaches it, so that rounding never
-/// lets the sun in; the most closed when none does. A larger value is more closed. `None` without states.
+/// Returns the index of the least closed state whose value is at least `demanded` (in the unit of `values`), so that
+/// rounding never admits direct sun; if none is, of the most closed one. A larger value is more closed. `None` without
+/// states.
 pub fn towards_closed(values: &[f64], demanded: f64) -> Option<usize> {
     let most_closed = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]))?;
     (0..values.len())
@@ -14,24 +15,24 @@ pub fn towards_closed(values: &[f64], demanded: f64) -> Option<usize> {
         .or(Some(most_closed))
 }
 
-/// Returns the index of the most open state: the value nearest to 0. `None` without states.
+/// Returns the index of the most open state: that whose value is nearest to 0. `None` without states.
 pub fn most_open(values: &[f64]) -> Option<usize> {
     by_openness(values).into_iter().next()
 }
 
-/// Returns the index of the most closed state: the greatest value, which for slats is the outer edge lowest. `None`
+/// Returns the index of the most closed state: that with the greatest value (for slats, the outer edge lowest). `None`
 /// without states.
 pub fn most_closed(values: &[f64]) -> Option<usize> {
     towards_closed(values, f64::INFINITY)
 }
 
-/// Returns the index of the value nearest to the demanded one. `None` without states.
+/// Returns the index of the state whose value is nearest to the demanded one. `None` without states.
 pub fn nearest(values: &[f64], demanded: f64) -> Option<usize> {
     (0..values.len()).min_by(|&a, &b| (values[a] - demanded).abs().total_cmp(&(values[b] - demanded).abs()))
 }
 
-/// Returns the indices of the states from the most open (nearest to 0) to the most closed; of two senses of rotation
-/// that are equally open the positive one first.
+/// Returns the indices of the states from the most open (nearest to 0) to the most closed; of two tilts that are
+/// equally open in opposite senses the positive one comes first.
 pub fn by_openness(values: &[f64]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()).then(values[b].total_cmp(&values[a])));

@@ -1,4 +1,5 @@
-//! Functions of a band on common cells, by through direction, so that any two can be compared number by number.
+//! Transmission and reflection functions of a band on common cells of directions of undeviated light, so that any two
+//! can be compared value by value.
 
 use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::btdf::{Band, Component, Dataset, Scattered, matrix_roughly_on};
@@ -6,20 +7,21 @@ use crate::compute::direction::Dir;
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// Maximum number of cells on which functions are compared; finer functions are compared on Klems cells. Chosen: cost,
-/// which grows with its square. No test of its own.
+/// Maximum number of cells on which functions are compared; functions on finer cells are averaged over Klems cells
+/// first. Chosen: cost, which grows with its square. No test of its own.
 const MOST_CELLS: usize = 700;
 
-/// One function on the common cells: `q[i · n + o]`, incident cell i, emergent cell o (through direction).
+/// One function of a band (transmission or reflection of one side) on the common cells; both incident and emergent
+/// cells contain directions of undeviated light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Block {
-    /// Values. \[1/sr\]
+    /// Luminance coefficients q for incident cell i and emergent cell o of n cells, at index `i · n + o`. \[1/sr\]
     pub q: Vec<f64>,
     /// Direct-hemispherical transmittance or reflectance of every incident cell.
     pub tau: Vec<f64>,
 }
 
-/// Rotation or mirror image of the hemisphere.
+/// Rotation or reflection that maps the hemisphere of directions onto itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Turn {
     /// Up and down exchanged.
@@ -32,23 +34,24 @@ pub enum Turn {
     QuarterRound,
 }
 
-/// Functions of a band on common cells.
+/// Functions of a band on common cells, with the weights of these.
 #[derive(Debug, Clone)]
 pub struct Blocks {
-    /// Common cells, counted as in the façade frame.
+    /// Common cells, with azimuths as in the façade frame.
     pub basis: RingBasis,
-    /// Projected solid angles. \[sr\]
+    /// Projected solid angle of each cell. \[sr\]
     pub weight: Vec<f64>,
     /// Cosine of the polar angle that represents each cell.
     pub cosine: Vec<f64>,
-    /// Transmission front, transmission back, reflection front, reflection back; `None` where the file itself does not
-    /// have the function.
+    /// Functions in the order of [`Component::ALL`]: transmission front, transmission back, reflection front,
+    /// reflection back; `None` where the source file does not contain the function.
     pub given: [Option<Block>; 4],
     turns: [Vec<usize>; 4],
 }
 
 impl Blocks {
-    /// Creates the blocks of a band from the functions that the source itself holds; `None` if it holds none.
+    /// Creates the functions of a band on common cells from those that the source file contains, without derived ones;
+    /// `None` if it contains none.
     pub fn new(dataset: &Dataset, band: &Band) -> Option<Self> {
         // Functions derived by reciprocity would agree with their origin whatever is wrong. The dataset's list is about
         // its visible band alone.
@@ -88,12 +91,12 @@ impl Blocks {
         (!components.is_empty()).then_some(Self { basis, weight, cosine, given, turns })
     }
 
-    /// Returns the block of one function.
+    /// Returns one function on the common cells; `None` if the source file does not contain it.
     pub fn get(&self, component: Component) -> Option<&Block> {
         self.given[component as usize].as_ref()
     }
 
-    /// Returns the index of the cell that `cell` becomes by a turn.
+    /// Returns the index of the cell onto which `turn` maps the cell `cell`.
     pub fn turned(&self, turn: Turn, cell: usize) -> usize {
         match turn {
             Turn::UpDown => self.turns[0][cell],
@@ -103,8 +106,8 @@ impl Blocks {
         }
     }
 
-    /// Returns Σ w|a − b| / Σ w(a + b)/2 over all pairs of cells, w the product of projected solid angles; 0 for two
-    /// zeros.
+    /// Returns the relative difference of two functions `a(i, o)` and `b(i, o)`: Σ w|a − b| / Σ w(a + b)/2 over all
+    /// pairs of cells, w the product of their projected solid angles; 0 if both are 0 everywhere.
     pub fn difference(&self, a: impl Fn(usize, usize) -> f64, b: impl Fn(usize, usize) -> f64) -> f64 {
         let (mut difference, mut sum) = (0.0, 0.0);
         let n = self.weight.len();
@@ -119,34 +122,39 @@ impl Blocks {
         if sum > 0.0 { difference / sum } else { 0.0 }
     }
 
-    /// Returns the relative difference between a function and its own image under a turn.
+    /// Returns the relative difference between a function and its image under a rotation or reflection of all
+    /// directions (see [`Self::difference`]).
     pub fn asymmetry(&self, block: &Block, turn: Turn) -> f64 {
         let n = self.weight.len();
         self.difference(|i, o| block.q[i * n + o], |i, o| block.q[self.turned(turn, i) * n + self.turned(turn, o)])
     }
 
-    /// Returns the reciprocity error of a function against itself. Reflections fulfil it exactly: f(ω_i, ω_r) = f(ω_r,
-    /// ω_i) reads, by through direction, q(i, o) = q(o turned by 180°, i turned by 180°). The transmission of systems
-    /// that are alike on both sides fulfils it too.
+    /// Returns the relative difference between a function, multiplied by `factor` of the emergent cell, and its
+    /// reverse. It is 0 for every reflection: f(ω_i, ω_r) = f(ω_r, ω_i) reads, by directions of undeviated light, q(i,
+    /// o) = q(o turned by 180°, i turned by 180°). It is 0 also for the transmission of systems that are alike on both
+    /// sides.
     pub fn own_reciprocity(&self, block: &Block, factor: impl Fn(usize) -> f64) -> f64 {
         let n = self.weight.len();
         let turn = |k| self.turned(Turn::HalfRound, k);
         self.difference(|i, o| block.q[i * n + o] * factor(o), |i, o| block.q[turn(o) * n + turn(i)] * factor(i))
     }
 
-    /// Returns the mean of τ over each ring, from the normal outwards, with its polar angle. \[rad\]
+    /// Returns for each ring of cells, from the normal outwards, its polar angle \[rad\] and the mean
+    /// direct-hemispherical value τ (or ρ) of the function over it.
     pub fn tau_by_ring(&self, block: &Block) -> Vec<(f64, f64)> {
         self.by_ring(&block.tau)
     }
 
-    /// Returns the ring means of the reversed function: the light that would leave if emergence were incidence.
+    /// Returns for each ring of cells, from the normal outwards, its polar angle \[rad\] and the mean
+    /// direct-hemispherical value of the function with incident and emergent directions exchanged.
     pub fn reversed_tau_by_ring(&self, block: &Block) -> Vec<(f64, f64)> {
         let n = self.weight.len();
         let sums: Vec<f64> = (0..n).map(|o| (0..n).map(|i| self.weight[i] * block.q[i * n + o]).sum()).collect();
         self.by_ring(&sums)
     }
 
-    /// Returns the means of cell values over the rings, from the normal outwards, with the polar angle of each. \[rad\]
+    /// Returns for each ring of cells, from the normal outwards, its polar angle \[rad\] and the mean of `values`,
+    /// given per cell, over it.
     pub(super) fn by_ring(&self, values: &[f64]) -> Vec<(f64, f64)> {
         let mean = |ring: usize| {
             let (from, to) =
@@ -158,12 +166,14 @@ impl Blocks {
         rings
     }
 
-    /// Returns the mean of τ over the hemisphere, weighted by projected solid angle.
+    /// Returns the hemispherical transmittance (or reflectance) of the function: the mean of its direct-hemispherical
+    /// values, weighted by projected solid angle.
     pub fn hemispherical(&self, block: &Block) -> f64 {
         block.tau.iter().zip(&self.weight).map(|(tau, w)| tau * w).sum::<f64>() / std::f64::consts::PI
     }
 
-    /// Returns the share of the light that stays in its cell.
+    /// Returns the share of the transmitted (or reflected) light, under uniform incident light, that leaves in the cell
+    /// that it came from; near 1 for panes and mirrors.
     pub fn straight_share(&self, block: &Block) -> f64 {
         let n = self.weight.len();
         let straight: f64 = (0..n).map(|k| block.q[k * n + k] * self.weight[k] * self.weight[k]).sum();
@@ -172,7 +182,8 @@ impl Blocks {
     }
 }
 
-/// Whether all turns map the cells onto each other: complete rings, sectors centred on the horizontal, an even number.
+/// Whether all of [`Turn`] map the cells of a basis onto each other: complete rings with an even number of sectors, one
+/// of them centred on the horizontal.
 fn even(basis: &RingBasis) -> bool {
     let mut rings = basis.rings().to_vec();
     rings.sort_by(|a, b| a.theta_min.total_cmp(&b.theta_min));

@@ -1,11 +1,11 @@
-//! Checks for blocks that are copies, empty or missing.
+//! Checks for functions of a dataset that are copies of others, zero everywhere, or missing.
 
 use super::at::At;
 use super::diagnosis::{Confidence, Diagnosis};
 use super::repair::{BandScope, BlockScope, RepairKind};
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, reciprocity_error, tau_max};
 
-/// Whether two functions hold the same numbers in the same order, as when one is a copy of the other.
+/// Whether two functions contain the same values in the same order, so that one is probably a copy of the other.
 pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     match (&a.scattered, &b.scattered) {
         (Some(Scattered::Cells(a)), Some(Scattered::Cells(b))) => a.values() == b.values(),
@@ -17,10 +17,11 @@ pub fn same_values(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
-/// Maximum relative difference of two equal values of which one is rounded to four digits: at most 5e-4, and a margin.
+/// Maximum relative difference of two values that are equal except that one is rounded to four digits: at most 5e-4,
+/// and a margin.
 const ROUNDED: f64 = 6e-4;
 
-/// Whether one function is a copy of the other, exact or rounded.
+/// Whether one function repeats the values of the other, exactly or rounded to four digits.
 fn repeats(a: &Btdf, b: &Btdf) -> bool {
     let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDED * a.abs().max(b.abs());
     match (&a.scattered, &b.scattered) {
@@ -32,7 +33,7 @@ fn repeats(a: &Btdf, b: &Btdf) -> bool {
     }
 }
 
-/// Returns findings about a solar band that repeats the visible one.
+/// Returns findings about a solar band whose values repeat those of the visible band.
 pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     // What was computed from a description is what that says, in both bands.
     let Some(solar) = dataset.solar.as_ref().filter(|_| dataset.described.is_none()) else { return Vec::new() };
@@ -56,9 +57,9 @@ pub(super) fn between_bands(dataset: &Dataset) -> Vec<Diagnosis> {
     alone_copied(dataset, solar, &shared)
 }
 
-/// Returns findings about single functions that are the same in both bands while others are not. Two separate
-/// measurements never agree in every digit; a function that does not depend on the band (mirrors without colour,
-/// nothing but holes) does so only where its counterpart of the other side or its transmission nearly does.
+/// Returns findings about the functions `shared`, which have the same values in both bands while other functions have
+/// not. Two separate measurements never agree in every digit; a function that does not depend on the band (neutral
+/// mirrors, mere holes) does so only if that of the other side, or the transmission, nearly does too.
 fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Diagnosis> {
     let total = |component: &Component| {
         let (a, b) = (dataset.visible.get(*component), solar.get(*component));
@@ -85,16 +86,18 @@ fn alone_copied(dataset: &Dataset, solar: &Band, shared: &[Component]) -> Vec<Di
     vec![Finding::warning("band-copied", message).into()]
 }
 
-/// Relative difference of functions below which two bands are those of a neutral material, as a share of the larger.
-/// Chosen; held between 0.3 and 17 % by `tests/formats/doctor_made.rs::one_block_copied_from_band_to_band_is_noticed`.
+/// Relative difference of their functions below which the two bands are taken for those of a neutral material, as a
+/// share of the larger. Chosen; held between 0.3 and 17 % by
+/// `tests/formats/doctor_made.rs::one_block_copied_from_band_to_band_is_noticed`.
 const NEUTRAL: f64 = 0.02;
 
-/// Whether the transmissions of both sides are the same numbers, and whether the reflections are.
+/// Returns whether the transmissions of both sides have the same values, and whether the reflections have.
 pub(super) fn copied(band: &Band) -> [bool; 2] {
     let alike = |a: &Option<Btdf>, b: &Option<Btdf>| a.as_ref().zip(b.as_ref()).is_some_and(|(a, b)| repeats(a, b));
     [alike(&band.transmission_front, &band.transmission_back), alike(&band.reflection_front, &band.reflection_back)]
 }
 
+/// Returns all findings about copied, empty and missing functions of a band.
 pub(super) fn check(at: &At) -> Vec<Diagnosis> {
     let mut list: Vec<Diagnosis> = copied_transmission(at).into_iter().collect();
     list.extend(copied_reflection(at));
@@ -104,6 +107,7 @@ pub(super) fn check(at: &At) -> Vec<Diagnosis> {
     list
 }
 
+/// Returns a finding if both transmissions have the same values although these are not reciprocal.
 fn copied_transmission(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?);
     if tau_max(front) == 0.0 || !repeats(front, back) {
@@ -128,7 +132,7 @@ fn copied_transmission(at: &At) -> Option<Diagnosis> {
     Some(one)
 }
 
-/// Returns a finding if both reflections are the same numbers. Two sides measured separately never agree in every
+/// Returns a finding if both reflections have the same values. Two sides measured separately never agree in every
 /// digit; it is suspicious where their transmissions differ.
 fn copied_reflection(at: &At) -> Option<Diagnosis> {
     let (front, back) = (at.band.reflection_front.as_ref()?, at.band.reflection_back.as_ref()?);
@@ -152,6 +156,7 @@ fn copied_reflection(at: &At) -> Option<Diagnosis> {
     Some(one.with(at.repair(RepairKind::DropBlock, BlockScope::One(Component::ReflectionBack))))
 }
 
+/// Returns findings about reflections that repeat the values of a transmission.
 fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     for reflection in [Component::ReflectionFront, Component::ReflectionBack] {
@@ -173,6 +178,7 @@ fn reflection_of_transmission(at: &At) -> Vec<Diagnosis> {
     list
 }
 
+/// Returns findings about functions that are zero everywhere.
 fn empty(at: &At) -> Vec<Diagnosis> {
     let zero = |component| at.band.get(component).is_some_and(|btdf| tau_max(btdf) == 0.0);
     let mut list = Vec::new();
@@ -220,6 +226,7 @@ fn empty(at: &At) -> Vec<Diagnosis> {
     list
 }
 
+/// Returns findings about functions that the band lacks, with the repair where reciprocity supplies them.
 fn missing(at: &At) -> Vec<Diagnosis> {
     let has = |component| at.band.get(component).is_some() && !at.dataset.derived.contains(&component);
     let mut list = Vec::new();

@@ -1,11 +1,11 @@
-//! Transmission of one side derived from the other side by reciprocity.
+//! Transmission of one side of a system, derived from that of the other side by reciprocity.
 
 use crate::compute::basis::AzimuthMap;
 use crate::compute::btdf::{Btdf, Scattered, TreeRank, resample_matrix};
 
-/// Returns the transmission of the other side by reciprocity, and how exact it is. Cells are counted as files count
-/// them on that side. `to_front`: the result is for light from outside. Returns `None` for functions without values
-/// between all directions.
+/// Returns the transmission for light from the other side, derived from `given` by reciprocity, and a remark on how
+/// exact it is. Its cells are numbered as files number them for that side. `to_front`: whether the result is for light
+/// from outside. Returns `None` for functions without values between all directions.
 pub fn by_reciprocity(given: &Btdf, to_front: bool) -> Option<(Btdf, &'static str)> {
     let map = if to_front { AzimuthMap::KLEMS_FRONT } else { AzimuthMap::KLEMS_BACK };
     let (scattered, how) = match given.scattered.as_ref()? {

@@ -1,12 +1,12 @@
-//! Findings with the repairs that are offered for them.
+//! Findings of the data check with the repairs that are offered for them.
 
 use super::repair::{BandScope, Repair};
 use crate::compute::btdf::{Finding, Severity};
 
-/// Confidence of a suspicion.
+/// Confidence with which the data check suspects a fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Confidence {
-    /// Suspicion that other explanations fit as well.
+    /// Suspicion whose numbers other explanations fit as well.
     Possible,
     /// Suspicion that the data support.
     Likely,
@@ -15,7 +15,7 @@ pub enum Confidence {
 }
 
 impl Confidence {
-    /// Returns the word for this confidence in messages.
+    /// Returns the word for this confidence in messages, e.g. "probably".
     pub const fn word(self) -> &'static str {
         match self {
             Self::Possible => "possibly",
@@ -24,7 +24,8 @@ impl Confidence {
         }
     }
 
-    /// Returns the severity of a fault of this confidence: only a certain one makes a dataset unfit for use.
+    /// Returns the severity of a finding about a fault that is suspected with this confidence: only a certain fault
+    /// makes a dataset unfit for use (an error).
     pub const fn severity(self) -> Severity {
         match self {
             Self::Possible | Self::Likely => Severity::Warning,
@@ -33,14 +34,14 @@ impl Confidence {
     }
 }
 
-/// Finding with the repair that is offered.
+/// Finding about a dataset with the repair that is offered for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnosis {
-    /// Finding on the data.
+    /// Finding about the dataset.
     pub finding: Finding,
-    /// Repair of the finding, where it is safe to offer one.
+    /// Repair of the fault that the finding reports, where it is safe to offer one.
     pub repair: Option<Repair>,
-    /// Whether the repair is certain. Only certain repairs may be made without being asked for one by one.
+    /// Whether the repair is certain to be right. Only certain repairs may be made without the user's consent to each.
     pub sure: bool,
 }
 
@@ -51,20 +52,20 @@ impl From<Finding> for Diagnosis {
 }
 
 impl Diagnosis {
-    /// Creates a diagnosis whose severity follows from the confidence.
+    /// Creates a finding about a suspected fault, without a repair; its severity follows from the confidence.
     pub(super) fn suspicion(confidence: Confidence, code: &'static str, message: String) -> Self {
         Finding { severity: confidence.severity(), code, message }.into()
     }
 
-    /// Returns the diagnosis with a repair, which is certain if the finding is an error.
+    /// Returns a copy with a repair, which counts as certain if the finding is an error.
     pub(super) fn with(mut self, repair: Repair) -> Self {
         self.repair = Some(repair);
         self.sure = self.finding.severity == Severity::Error;
         self
     }
 
-    /// Returns the diagnosis with an uncertain repair: only somebody who knows the product can decide on it, however
-    /// certain the finding is.
+    /// Returns a copy with a repair that never counts as certain: only somebody who knows the product can decide on it,
+    /// however certain the finding is.
     pub(super) fn asking(mut self, repair: Repair) -> Self {
         self.repair = Some(repair);
         self.sure = false;

@@ -1,4 +1,5 @@
-//! Checks of energy and units: transmittance plus reflectance above 1, values in percent, negative or not numbers.
+//! Checks of energy balance and units: transmittance plus reflectance above 1, values in percent, negative or not
+//! finite.
 
 use super::at::At;
 use super::diagnosis::{Confidence, Diagnosis};
@@ -9,24 +10,26 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Scattered, tau_max
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::DVec3;
 
-/// Direct-hemispherical sum up to which an excess over 1 is rounding. Chosen: rounding to three digits is at most half
-/// of it; affects the severity of findings only.
+/// Direct-hemispherical value (τ, ρ or τ + ρ) up to which an excess over 1 is a rounding error. Chosen: rounding to
+/// three digits is at most half of it; affects the severity of findings only.
 const ROUNDING: f64 = 1.001;
-/// Direct-hemispherical sum up to which a function is usable: measured and simulated functions may exceed 1 by this
-/// much. The sum of two independent measurements may exceed 1 by twice as much. Chosen; held from below by
+/// Direct-hemispherical value τ or ρ up to which a function is usable: measured and simulated functions may exceed 1 by
+/// this much. The sum of two independent measurements may exceed 1 by twice as much. Chosen; held from below by
 /// `tests/formats/doctor.rs::no_genuine_product_is_called_broken`, on makers' files.
 const PLAUSIBLE: f64 = 1.05;
-/// Direct-hemispherical sum above which the values are assumed to be in another unit. Chosen: ten times the excess of
-/// [`PLAUSIBLE`], and exceeded by a transmittance of 0.015 in percent or of 0.5 times π.
+/// Direct-hemispherical value τ or ρ above which the values are assumed to be in another unit. Chosen: ten times the
+/// excess of [`PLAUSIBLE`], and exceeded by a transmittance of 0.015 in percent or of 0.5 times π.
 const OTHER_UNIT: f64 = 1.5;
-/// Direct-hemispherical sum up to which a missing π or cosine explains the values as well as percent do: above π ·
-/// [`PLAUSIBLE`] = 3.3.
+/// Direct-hemispherical value τ or ρ up to which a missing π or cosine explains the values as well as percent do: above
+/// π · [`PLAUSIBLE`] = 3.3.
 const OTHER_FACTOR: f64 = 4.0;
-/// Direct-hemispherical sum above which only percent explain the values. Chosen: ten times the physical maximum.
+/// Direct-hemispherical value τ or ρ above which only percent explain the values. Chosen: ten times the physical
+/// maximum.
 const SURELY_PERCENT: f64 = 10.0;
-/// Maximum direct-hemispherical sum of values in percent: [`OTHER_UNIT`] in percent.
+/// Maximum direct-hemispherical value τ or ρ of data in percent: [`OTHER_UNIT`] in percent.
 const MOST_PERCENT: f64 = 150.0;
 
+/// Returns all findings about the energy balance and the unit of a band.
 pub(super) fn check(at: &At) -> Vec<Diagnosis> {
     let mut list = not_numbers(at);
     let percent = percent(at);
@@ -49,6 +52,7 @@ fn values(btdf: &Btdf, mut each: impl FnMut(f64)) {
     }
 }
 
+/// Returns findings about negative values, and about values that are infinite or not numbers.
 fn not_numbers(at: &At) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     for component in at.band.components() {
@@ -72,13 +76,13 @@ fn not_numbers(at: &At) -> Vec<Diagnosis> {
     list
 }
 
-/// Whether a function exceeds 1 at most angles, as percent do; values divided by the cosine do so at grazing angles
-/// only.
+/// Whether a function with the largest direct-hemispherical value `sum` and the hemispherical mean `mean` exceeds 1 at
+/// most angles, like data in percent; values divided by a cosine do so at grazing angles only.
 fn everywhere(sum: f64, mean: f64) -> bool {
     mean > 2.2 || sum < 2.5 * mean
 }
 
-/// Whether the dataset has a function that can only be in percent. A file has one unit.
+/// Whether the dataset has a function that can only be in percent; then all of it is, since a file has one unit.
 fn surely_percent(dataset: &Dataset) -> bool {
     let bands = std::iter::once(&dataset.visible).chain(&dataset.solar);
     let mut functions = bands.flat_map(|band| band.components().into_iter().filter_map(|c| band.get(c)));
@@ -88,7 +92,8 @@ fn surely_percent(dataset: &Dataset) -> bool {
     })
 }
 
-/// Returns suspicions of values in percent: sums about 100 times the physical maximum or the value of the other side.
+/// Returns findings about functions whose values seem to be in percent: direct-hemispherical values about 100 times the
+/// physical maximum or that of the other side.
 fn percent(at: &At) -> Vec<Diagnosis> {
     let components = at.band.components();
     let largest = |component: Component| at.band.get(component).map_or(0.0, tau_max);
@@ -191,7 +196,7 @@ pub(super) fn between_bands(dataset: &Dataset) -> Option<Diagnosis> {
     })
 }
 
-/// Returns findings about direct-hemispherical sums above 1, of single functions and of transmission plus reflection.
+/// Returns findings about direct-hemispherical values above 1, of single functions and of transmission plus reflection.
 fn sums(at: &At) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     for (side, through, back) in [
@@ -239,6 +244,7 @@ fn graded(message: String, sum: f64, limit: f64) -> Finding {
     }
 }
 
+/// Returns the largest τ + ρ over the incident directions or cells of the data, and the direction at which it occurs.
 fn largest_sum(transmitted: &Btdf, reflected: &Btdf) -> (f64, Dir<Facade>) {
     let mut worst = (0.0, Dir::from_unit(DVec3::Z));
     let mut ask = |total: f64, direction: Dir<Facade>| {
@@ -264,8 +270,8 @@ fn largest_sum(transmitted: &Btdf, reflected: &Btdf) -> (f64, Dir<Facade>) {
     worst
 }
 
-/// Returns the direct-hemispherical value of an incident cell: the mean over the cell for functions of θ, the stored
-/// mean for matrices on the same cells, the centre's value for all else.
+/// Returns the direct-hemispherical value τ (or ρ) of a function for the incident cell `index` of `basis`: the mean
+/// over the cell for functions of θ, the stored mean for matrices on the same cells, the centre's value for all else.
 fn tau_of_cell(btdf: &Btdf, basis: &RingBasis, index: usize) -> f64 {
     let cell = basis.cell(index);
     let regular = btdf.regular.as_ref().map_or(0.0, |tau| cell_mean(&cell, 6, |d| tau.at(d.theta())));

@@ -1,7 +1,8 @@
-//! Evidence on the readings of a band: a few misfits, each 0 where physics and experience expect it.
+//! Evidence for and against readings of a band's numbers: a few misfits, each 0 in data that agree with physics and
+//! experience.
 //!
-//! All are computed from the same sums over rows and columns of the blocks, which are made once; only reciprocity needs
-//! all pairs of directions, and its results are cached.
+//! All are computed from the same sums over rows and columns of the functions, which are computed once; only
+//! reciprocity needs all pairs of directions, and its results are cached.
 
 use super::blocks::{Block, Blocks, Turn};
 use super::reading::{Factor, Part, Reading, after, as_it_is};
@@ -11,78 +12,82 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::rc::Rc;
 
-/// Question that a reading is rated by.
+/// Question by which a reading of the numbers is rated; the answer is a misfit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Question {
-    /// Difference between the transmissions of both sides, one of them reversed. 0 for every system.
+    /// Reciprocity: difference between the transmissions of both sides, one of them with the light reversed. 0 for
+    /// every system.
     Between,
-    /// Difference between a single transmission and its own reverse. 0 for systems that are alike on both sides.
+    /// Difference between the only transmission and its own reverse. 0 for systems that are alike on both sides.
     Alone,
-    /// Difference between a reflection and its own reverse. 0 for every system.
+    /// Reciprocity: difference between a reflection and its own reverse. 0 for every system.
     Own,
-    /// Difference of the sum of transmittance and reflectance between above and below, and between right and left.
+    /// Asymmetry: difference of the sum of transmittance and reflectance between light from above and from below, and
+    /// from right and left.
     Even,
-    /// Correlation of the preferences of transmission and reflection for light from above or below; 0 where they oppose
-    /// each other, as they should.
+    /// Correlation of how much transmission and reflection prefer light from above to light from below; 0 where they
+    /// oppose each other, which is usual.
     Opposed,
     /// Variation of the sum of transmittance and reflectance with the angle of incidence.
     Rest,
-    /// Transmittance plus reflectance above 1.
+    /// Excess of transmittance plus reflectance over 1.
     Won,
-    /// Loss of nearly all light.
+    /// Loss of nearly all light: transmittance plus reflectance near 0.
     Lost,
     /// Deviation of panes, mirrors and diffusers from the angular dependence of such materials.
     Shape,
 }
 
-/// Direct-hemispherical value below which a cell is dark. Far above the rounding of sums over 700 cells (2⁻⁵² · 700 ≈
-/// 2e-13).
+/// Direct-hemispherical value τ or ρ below which an incident cell counts as dark. Far above the rounding of sums over
+/// 700 cells (2⁻⁵² · 700 ≈ 2e-13).
 const DARK: f64 = 1e-9;
-/// Transmittance plus reflectance up to which an excess over 1 is a measuring error. Chosen; tested, as the constants
-/// below, by the table of `examples/planted_faults.rs` and by `tests/formats/doctor.rs`.
+/// Transmittance plus reflectance up to which an excess over 1 counts as a measurement error. Chosen; tested, as the
+/// constants below, by the table of `examples/planted_faults.rs` and by `tests/formats/doctor.rs`.
 const PLAUSIBLE: f64 = 1.01;
-/// Share of unscattered light above which a block is a pane or mirror; symmetric blocks below it are diffusers. Chosen:
-/// panes on their own cells have 1, Lambertian diffusers on Klems cells 0.007.
+/// Share of unscattered light above which a function counts as that of a pane or mirror; symmetric functions below it
+/// count as those of diffusers. Chosen: panes on their own cells have 1, Lambertian diffusers on Klems cells 0.007.
 const STRAIGHT: f64 = 0.9;
-/// Difference from its own images below which a block depends on the angle of incidence only. Weighted share. Chosen:
-/// the value of `symmetry::NOISE`.
+/// Relative difference from its own images under rotations and reflections below which a function depends on the angle
+/// of incidence only. Chosen: the value of `symmetry::NOISE`.
 const ALIKE: f64 = 0.05;
-/// Root mean square difference between above and below that counts as a preference. Chosen: above the measuring error
-/// of [`PLAUSIBLE`].
+/// Rms difference of τ or ρ between light from above and from below from which it counts as a preference. Chosen: above
+/// the measurement error of [`PLAUSIBLE`].
 const PREFERRED: f64 = 0.015;
 /// Minimum rise of the reflectance of a mirror from the normal to grazing angles, as a share of 1 minus the reflectance
 /// at the normal. Chosen: less than half of the 0.61 by which a pane of n = 1.5 rises to 82.5°, the middle of the
 /// outermost Klems ring (Fresnel's equations).
 const GRAZING: f64 = 0.25;
-/// Mean direct-hemispherical value below which a file is black, or its values are not luminance coefficients. Chosen:
-/// above 0.024, the most that fluxes in place of luminance coefficients sum up to on Klems cells (their largest
-/// projected solid angle).
+/// Mean direct-hemispherical value below which either the system is black or the values of its file are not luminance
+/// coefficients. Chosen: above 0.024, the most that fluxes in place of luminance coefficients sum up to on Klems cells
+/// (their largest projected solid angle).
 const BLACK: f64 = 0.06;
 
-/// Sums of one block without a factor: direct-hemispherical value of each incident cell, and light sent by each
-/// emergent cell under uniform incident light. \[1\]
+/// Sums over one function: direct-hemispherical value `tau` of each incident cell, and relative luminance `emitted` of
+/// each emergent cell under uniform incident light. Dimensionless.
 #[derive(Debug, Clone)]
 pub(super) struct Sums {
     tau: Vec<f64>,
     emitted: Vec<f64>,
 }
 
-/// Kind of scattering of a block.
+/// Kind of scattering that a function describes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Kind {
     /// Unscattered light that depends on the angle of incidence only.
     Straight,
     /// Scattering that does not depend on azimuths.
     Diffuse,
-    /// Any other scattering.
+    /// Any other scattering, which depends on directions.
     Directed,
 }
 
-/// Key of a rearranged block: index of the source, turn, and whether incident and emergent directions are exchanged.
+/// Key of a function's rearranged values: index of the function, rotation or reflection of directions, and whether
+/// incident and emergent directions are exchanged.
 type Rearranged = (usize, Option<Turn>, bool);
 
-/// Evidence from the blocks of a band, with caches of sums, rearranged values and differences.
+/// Evidence from the functions of a band, with caches of sums, rearranged values and differences.
 pub(super) struct Evidence<'a> {
+    /// Functions of the band on common cells.
     pub(super) blocks: &'a Blocks,
     kinds: [Option<Kind>; 4],
     sums: RefCell<BTreeMap<(usize, Option<Factor>), Sums>>,
@@ -90,11 +95,12 @@ pub(super) struct Evidence<'a> {
     compared: RefCell<BTreeMap<(Part, Part, bool), f64>>,
 }
 
-/// Misfits by question, in a fixed order; questions that do not apply are omitted in every reading alike.
+/// Misfits of a reading, each with its question, in a fixed order; questions that do not apply to a band are omitted
+/// for all its readings.
 pub(super) type Answers = Vec<(Question, f64)>;
 
 impl<'a> Evidence<'a> {
-    /// Creates the evidence of the blocks for which `heard` is `true`.
+    /// Creates the evidence from those functions for which `heard` returns `true`.
     pub(super) fn new(blocks: &'a Blocks, heard: impl Fn(Component) -> bool) -> Self {
         // A block of zeros does not count, nor does one measured from a few directions only.
         let lit = |block: &&Block| 2 * block.tau.iter().filter(|tau| **tau > DARK).count() > block.tau.len();
@@ -122,7 +128,7 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// Whether a block contains light and is used as evidence.
+    /// Whether the function with index `source` is not zero everywhere and is used as evidence.
     pub(super) fn lit(&self, source: usize) -> bool {
         self.kinds[source].is_some()
     }
@@ -132,7 +138,7 @@ impl<'a> Evidence<'a> {
         self.blocks.given[source].as_ref().expect("a reading names given blocks")
     }
 
-    /// Returns the sums over rows and columns of a block in the given reading.
+    /// Returns the sums over the rows and columns of a function in the given reading.
     pub(super) fn sums(&self, part: Part) -> Sums {
         let key = (part.source, part.factor);
         let known = self.sums.borrow().get(&key).cloned();
@@ -151,6 +157,7 @@ impl<'a> Evidence<'a> {
         }
     }
 
+    /// Computes the sums over rows and columns of a function's values, with a suspected factor removed.
     fn summed(&self, source: usize, factor: Option<Factor>) -> Sums {
         let (block, weight) = (self.block(source), &self.blocks.weight);
         let n = weight.len();
@@ -179,7 +186,8 @@ impl<'a> Evidence<'a> {
         }
     }
 
-    /// Returns the relative difference of two blocks, cached. `reversed`: one of them with the light reversed.
+    /// Returns the relative difference of two functions in the given readings, from the cache if possible; `reversed`:
+    /// whether the light of one of them is reversed.
     pub(super) fn cached_difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
         let (a, b, reversed) = canonical(a, b, reversed);
         if a == b && !reversed {
@@ -193,7 +201,8 @@ impl<'a> Evidence<'a> {
         difference
     }
 
-    /// Returns the values of a turned block by rows of incident cells, or of emergent ones if `exchanged`. Cached.
+    /// Returns the values q of a function \[1/sr\] with its directions mapped by `turn`, row by row of incident cells,
+    /// or of emergent ones if `exchanged`; cached.
     fn values(&self, source: usize, turn: Option<Turn>, exchanged: bool) -> Rc<Vec<f64>> {
         let made = || {
             let (q, n) = (&self.block(source).q, self.blocks.weight.len());
@@ -212,7 +221,7 @@ impl<'a> Evidence<'a> {
         self.values.borrow_mut().entry((source, turn, exchanged)).or_insert_with(made).clone()
     }
 
-    /// Returns the relative difference like [`Blocks::difference`], computed row by row.
+    /// Computes the relative difference of two functions in the given readings like [`Blocks::difference`], row by row.
     fn difference(&self, a: Part, b: Part, reversed: bool) -> f64 {
         let weight = &self.blocks.weight;
         let n = weight.len();
@@ -238,7 +247,7 @@ impl<'a> Evidence<'a> {
         if sum > 0.0 { difference / sum } else { 0.0 }
     }
 
-    /// Whether two readings give the same functions, to within `nothing`.
+    /// Whether two readings give the same functions, to within the relative difference `nothing`.
     pub(super) fn same(&self, a: &Reading, b: &Reading, nothing: f64) -> bool {
         a.iter().zip(b).all(|(a, b)| match (a, b) {
             (Some(a), Some(b)) => a == b || self.cached_difference(*a, *b, false) < nothing,
@@ -247,7 +256,7 @@ impl<'a> Evidence<'a> {
         })
     }
 
-    /// Returns the misfits of a reading.
+    /// Returns the misfits of a reading of the band's numbers.
     pub(super) fn answers(&self, reading: &Reading) -> Answers {
         let lit = as_it_is(self.blocks).map(|part| part.filter(|part| self.lit(part.source)));
         let there = |slot: usize| lit[slot].and(reading[slot]);
@@ -291,7 +300,8 @@ impl<'a> Evidence<'a> {
         list
     }
 
-    /// Returns the difference between the sums of a function in two bands, each relative to its own mean.
+    /// Returns the mean difference between the shapes of a function in two bands: of its sums over rows and columns,
+    /// each relative to its own mean.
     pub(super) fn shape_difference(&self, part: Part, other: &Self, of_other: Part) -> f64 {
         let (a, b) = (self.sums(part), other.sums(of_other));
         let difference = |a: &[f64], b: &[f64]| {
@@ -301,13 +311,13 @@ impl<'a> Evidence<'a> {
         0.5 * (difference(&a.tau, &b.tau) + difference(&a.emitted, &b.emitted))
     }
 
-    /// Returns the relative difference between a function and its own reverse.
+    /// Returns the relative difference between a function and the same function with the light reversed.
     fn own(&self, part: Part) -> f64 {
         // Names of light that leaves on the side where it came from are turned by 180°.
         self.cached_difference(part, Part { turn: after(part.turn, Some(Turn::HalfRound)), ..part }, true)
     }
 
-    /// Returns the mean under uniform incident light.
+    /// Returns the mean of values given per cell, weighted by projected solid angle.
     fn mean(&self, values: impl Iterator<Item = f64>) -> f64 {
         values.zip(&self.blocks.weight).map(|(value, w)| w * value).sum::<f64>() / PI
     }
@@ -316,21 +326,22 @@ impl<'a> Evidence<'a> {
         self.mean(values.map(|value| value * value)).sqrt()
     }
 
-    /// Returns the root mean square deviation of values from their mean.
+    /// Returns the rms deviation of values given per cell from their mean.
     fn uneven(&self, values: &[f64]) -> f64 {
         let mean = self.mean(values.iter().copied());
         self.rms(values.iter().map(|value| value - mean))
     }
 
-    /// Returns the root mean square difference between values and their mirror images, above–below and left–right.
+    /// Returns the rms difference between values given per cell and those of the mirror-image cells, above–below and
+    /// left–right together.
     fn one_sided(&self, values: &[f64]) -> f64 {
         let asymmetry =
             |turn| self.rms(values.iter().enumerate().map(|(k, value)| value - values[self.blocks.turned(turn, k)]));
         asymmetry(Turn::UpDown).hypot(asymmetry(Turn::LeftRight))
     }
 
-    /// Returns the correlation of the preferences of transmission and reflection, above or below; 0 where they oppose
-    /// each other, as they should, or one of them has no preference.
+    /// Returns the correlation, 0 … 1, of how much the transmittances `t` and the reflectances `r` prefer light from
+    /// above to light from below; 0 where they oppose each other, or where one of them has no preference.
     fn together(&self, t: &[f64], r: &[f64]) -> f64 {
         let preference = |values: &[f64]| -> Vec<f64> {
             (0..values.len()).map(|k| values[k] - values[self.blocks.turned(Turn::UpDown, k)]).collect()
@@ -343,7 +354,8 @@ impl<'a> Evidence<'a> {
         (self.mean(t.iter().zip(&r).map(|(t, r)| t * r)) / (through * back)).max(0.0)
     }
 
-    /// Returns the root mean square deviation of the ring means from the overall mean.
+    /// Returns the rms deviation of the means over rings of cells from the overall mean: the variation with the polar
+    /// angle.
     fn by_angle(&self, values: &[f64]) -> f64 {
         let basis = &self.blocks.basis;
         let mean = |ring: usize| {
@@ -355,14 +367,15 @@ impl<'a> Evidence<'a> {
         self.uneven(&means)
     }
 
-    /// Returns the means over rings from the normal outwards, with the cosine of each.
+    /// Returns for each ring of cells, from the normal outwards, the cosine of its polar angle and the mean of the
+    /// values over it.
     fn rings(&self, values: &[f64]) -> Vec<(f64, f64)> {
         self.blocks.by_ring(values).into_iter().map(|(theta, mean)| (theta.cos(), mean)).collect()
     }
 
-    /// Returns the deviation from the behaviour of the kind of material: a pane that changes before 40°, a mirror that
-    /// does not reflect more towards grazing, a diffuser that emits less uniformly than it receives. Logarithms of
-    /// ratios.
+    /// Returns how much a function deviates from the angular dependence usual for its kind of material: of a pane whose
+    /// transmittance changes before 40°, of a mirror that does not reflect more towards grazing (both as logarithms of
+    /// ratios), of a diffuser that emits less uniformly than it receives. `None` for other materials.
     fn shape(&self, part: Part, sums: &Sums, transmission: bool) -> Option<f64> {
         let rings = self.rings(&sums.tau);
         let (first, last) = (rings.first()?.1, rings.last()?.1);
@@ -381,11 +394,12 @@ impl<'a> Evidence<'a> {
     }
 }
 
-/// Cosine of the angle up to which the transmittance of panes is constant: 40°, the middle of a Klems ring. By
-/// Fresnel's equations a pane of n = 1.5 loses 1 % up to there.
+/// Cosine of the angle of incidence up to which the transmittance of panes is nearly constant: 40°, the middle of a
+/// Klems ring. By Fresnel's equations a pane of n = 1.5 loses 1 % up to there.
 const MIDDLE: f64 = 0.77;
 
-/// Returns the unique form of a comparison under which its result is cached.
+/// Returns the comparison of two functions in a unique form, under which its result is cached: equivalent comparisons
+/// have the same form.
 fn canonical(a: Part, b: Part, reversed: bool) -> (Part, Part, bool) {
     if a.factor.is_some() || b.factor.is_some() {
         return (a, b, reversed);

@@ -1,4 +1,5 @@
-//! Hypotheses about what is wrong with a file; each is about all blocks of a band together.
+//! Hypotheses about what is wrong with a dataset; each is about all transmission and reflection functions of a band
+//! together.
 
 use super::blocks::{Blocks, Turn};
 use super::evidence::Evidence;
@@ -6,23 +7,23 @@ use super::reading::{Factor, Part, Reading, as_it_is};
 use super::repair::{BlockScope, RepairKind};
 use crate::compute::btdf::Component;
 
-/// Fault that blocks of a file may have.
+/// Fault that functions of a dataset may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Fault {
-    /// Block turned or mirrored.
+    /// Directions rotated or mirrored.
     Turned(Turn),
-    /// Incident and emergent directions exchanged, as when rows are labelled columns.
+    /// Incident and emergent directions exchanged, e.g. because rows were labelled columns.
     Transposed,
-    /// Blocks of outside and inside exchanged.
+    /// Functions of outside and inside exchanged.
     Swapped,
-    /// Values multiplied or divided by a factor.
+    /// Values multiplied or divided by a factor, e.g. a cosine.
     Factor(Factor),
-    /// One transmission is a copy of the other.
+    /// Copy: one transmission repeats that of the other side.
     Copied,
 }
 
 impl Fault {
-    /// Returns the code of the finding.
+    /// Returns the code of the finding that reports the fault.
     pub(super) const fn code(self) -> &'static str {
         match self {
             Self::Turned(Turn::LeftRight) => "mirrored-block",
@@ -50,7 +51,7 @@ impl Fault {
         })
     }
 
-    /// Returns the description of blocks with this fault, for messages.
+    /// Returns the text that describes functions with this fault in messages.
     pub(super) const fn words(self) -> &'static str {
         match self {
             Self::Turned(Turn::LeftRight) => "mirrored left to right",
@@ -67,7 +68,7 @@ impl Fault {
         }
     }
 
-    /// Returns the part as it reads with the fault undone.
+    /// Returns the reading of one function's numbers with the fault undone.
     fn undone(self, part: Part) -> Part {
         match self {
             Self::Turned(turn) => Part { turn: Some(turn), ..part },
@@ -80,24 +81,24 @@ impl Fault {
     }
 }
 
-/// Returns the index of the block of the other side.
+/// Returns the index of the same function (transmission or reflection) of the other side.
 fn other(source: usize) -> usize {
     Component::ALL[source].other_side() as usize
 }
 
-/// Hypothesis: one explanation of the whole file.
+/// Hypothesis: one fault of some functions of a band, as an explanation of all its numbers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Hypothesis {
     /// Fault that is assumed.
     pub(super) fault: Fault,
-    /// Blocks with the fault, as repairs name them.
+    /// Functions that have the fault, as repairs name them.
     pub(super) scopes: Vec<BlockScope>,
     /// Reading of the numbers with the fault undone.
     pub(super) reading: Reading,
 }
 
-/// Returns the hypotheses about the blocks of a band, one fault at a time. `copied`: whether the transmissions, and the
-/// reflections, of both sides are the same numbers, which neither a turn nor a transposition produces.
+/// Returns the hypotheses about the functions of a band, with one fault each. `copied`: whether the transmissions, and
+/// the reflections, of both sides have the same values, which neither a rotation nor a transposition produces.
 pub(super) fn hypotheses(evidence: &Evidence, copied: [bool; 2]) -> Vec<Hypothesis> {
     let blocks = evidence.blocks;
     let lit: Vec<Component> = Component::ALL.into_iter().filter(|c| evidence.lit(*c as usize)).collect();
@@ -142,8 +143,8 @@ const PAIRS: [[Component; 2]; 2] = [
     [Component::ReflectionFront, Component::ReflectionBack],
 ];
 
-/// Returns the sets of blocks that go wrong together: each block by itself, both transmissions, both reflections, both
-/// of one side, all but one, all.
+/// Returns the sets of functions that may have a fault in common: each function by itself, both transmissions, both
+/// reflections, both of one side, all but one, all.
 fn sets(lit: &[Component]) -> Vec<Vec<Component>> {
     let meant = |test: &dyn Fn(&Component) -> bool| lit.iter().copied().filter(|c| test(c)).collect::<Vec<_>>();
     let mut list: Vec<Vec<Component>> = Vec::new();
@@ -162,6 +163,8 @@ fn sets(lit: &[Component]) -> Vec<Vec<Component>> {
     list
 }
 
+/// Creates the hypothesis that the functions `meant` have the fault; `None` for a rotation of all or nearly all
+/// functions, which the data cannot show.
 fn hypothesis(blocks: &Blocks, lit: &[Component], fault: Fault, meant: &[Component]) -> Option<Hypothesis> {
     // Turned as a whole, a file agrees with itself as well as before: that is asked of who knows the product.
     // Turned but for one block, it does so as well as with that one turned alone, which is the simpler explanation.

@@ -1,9 +1,9 @@
-//! Identity of a dataset: words that programs leave where names should be, and a thickness that no product has.
+//! Checks of a dataset's identity: placeholders where names should be, and a thickness that no product has.
 
 use super::Diagnosis;
 use crate::compute::btdf::{Dataset, Finding};
 
-/// Names that templates and programs write, in lower case.
+/// Placeholders, in lower case, that templates and programs write in the place of names.
 const TEMPLATE: [&str; 16] = [
     "name",
     "manufacturer",
@@ -35,6 +35,7 @@ fn template(word: &str) -> bool {
         || word.starts_with("example ")
 }
 
+/// Returns findings about placeholders for product and maker, and about an impossible thickness.
 pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
     // Closed forms are named by whoever stores them.
     if dataset.format.is_empty() {

@@ -1,10 +1,10 @@
 //! Choice of the hypothesis that explains a file best, and its lead over every other.
 //!
-//! A misfit counts by the logarithm of its ratio to the size usual in genuine files, so that all questions have
-//! comparable influence, whatever their unit, and no absurd value outweighs the others. A hypothesis is reported when
-//! it reduces that sum enough; it is certain when no other explanation, including that nothing is wrong, comes near it.
-//! Both thresholds, and the sizes usual in genuine files, are documented with the table of
-//! `examples/planted_faults.rs`.
+//! Misfits are those of [`super::evidence`]. A misfit counts by the logarithm of its ratio to the size usual in genuine
+//! files, so that all questions have comparable influence and no absurd value outweighs the others. A hypothesis is
+//! reported when it reduces that sum enough; it is certain when no other explanation, including that nothing is wrong,
+//! reduces the sum nearly as much. Both thresholds, and the sizes usual in genuine files, are documented with the table
+//! of `examples/planted_faults.rs`.
 
 use super::blocks::Blocks;
 use super::copies::copied;
@@ -14,8 +14,9 @@ use super::reading::{Factor, Reading, as_it_is};
 use super::repair::BandScope;
 use crate::compute::btdf::{Band, Component, Scattered, TreeRank};
 
-/// Returns the size of a misfit that genuine files show, and its weight: a misfit of that size counts ln 2 times the
-/// weight. Rules that hold for every system count twice as much as those that hold for most.
+/// Returns the size of the misfit of a question that genuine files show, and the question's weight: a misfit of that
+/// size counts ln 2 times the weight. Questions whose answer is 0 for every system count twice as much as those for
+/// which this is only usual.
 const fn scale(question: Question) -> (f64, f64) {
     match question {
         Question::Between | Question::Own => (0.02, 1.0),
@@ -28,30 +29,34 @@ const fn scale(question: Question) -> (f64, f64) {
         Question::Lost => (0.5, 1.0),
     }
 }
-/// Difference between the shapes of one function in both bands that genuine files show; weighted share. Chosen with
-/// [`scale`] by the table of `examples/planted_faults.rs`.
+/// Relative difference between the shapes of one function in both bands that genuine files show. Chosen with [`scale`]
+/// by the table of `examples/planted_faults.rs`.
 const BANDS: f64 = 0.1;
 
 /// Reduction of the sum of misfits from which a hypothesis is reported. Chosen by the table of
-/// `examples/planted_faults.rs`: no genuine file gets an offer from the list of hypotheses.
+/// `examples/planted_faults.rs`: no genuine file is reported with one of the hypotheses.
 pub(super) const ASK: f64 = 0.9;
 /// Lead over every other hypothesis from which a hypothesis is certain. Chosen by the table of
 /// `examples/planted_faults.rs`: no automatic repair makes a file worse.
 pub(super) const SURE: f64 = 1.6;
-/// Cost of every further set of blocks that a hypothesis assumes to be wrong, like the toss of a coin: ln 2.
+/// Cost, in the sum of misfits, of every further set of functions that a hypothesis assumes to be wrong, like the toss
+/// of a coin: ln 2.
 const FURTHER: f64 = std::f64::consts::LN_2;
-/// Difference below which two readings count as equal; weighted share. Also the step by which gains are compared.
+/// Relative difference of functions below which two readings count as equal; also the step by which gains are compared.
 /// Chosen with [`scale`] by the table of `examples/planted_faults.rs`.
 const NOTHING: f64 = 0.05;
 
-/// Band with the evidence on its readings.
+/// Spectral band with the evidence on the readings of its functions.
 pub(super) struct Side<'a> {
+    /// Band as repairs name it.
     pub(super) scope: BandScope,
+    /// Evidence on the readings of the band's functions.
     pub(super) evidence: Evidence<'a>,
     copied: [bool; 2],
 }
 
 impl<'a> Side<'a> {
+    /// Creates the evidence of a band.
     pub(super) fn new(scope: BandScope, band: &Band, blocks: &'a Blocks) -> Self {
         // Trees of rank 3 have no azimuth to be wrong about, and averaged azimuths do not go both ways alike.
         let averaged =
@@ -64,24 +69,27 @@ impl<'a> Side<'a> {
     }
 }
 
-/// Hypothesis about one or both bands, with its gain.
+/// Hypothesis about one or both bands, with the reduction of misfits that it brings.
 #[derive(Debug, Clone)]
 pub(super) struct Candidate {
+    /// Hypothesis that is rated.
     pub(super) hypothesis: Hypothesis,
+    /// Bands that the hypothesis is about.
     pub(super) bands: BandScope,
-    /// Reduction of the sum of misfits.
+    /// Reduction of the sum of weighted logarithms of misfits if the fault is undone.
     pub(super) gain: f64,
 }
 
-/// Best explanation of a file, with its rivals and evidence.
+/// Best explanation of a dataset's misfits, with its rivals and evidence.
 #[derive(Debug, Clone)]
 pub(super) struct Verdict {
+    /// Hypothesis with the largest gain of those that a repair undoes.
     pub(super) best: Candidate,
-    /// Other explanations that come near it, best first.
+    /// Other explanations whose gain comes near that of the best, in the order of falling gain.
     pub(super) rivals: Vec<Candidate>,
-    /// Lead over all rivals and over nothing being wrong; at most [`SURE`].
+    /// Lead: difference in gain from the best rival, and from the assumption that nothing is wrong; at most [`SURE`].
     pub(super) lead: f64,
-    /// Misfits before and after the repair, of the first band that the explanation is about.
+    /// Questions with the misfits before and after the repair, of the first band that the explanation is about.
     pub(super) evidence: Vec<(Question, f64, f64)>,
 }
 
@@ -98,7 +106,7 @@ impl Verdict {
     }
 }
 
-/// Returns the sum of the weighted logarithms of the misfits.
+/// Returns the sum of the weighted logarithms of the misfits of a reading, relative to those of genuine files.
 fn cost(answers: &Answers) -> f64 {
     let counts = |(question, misfit): &(Question, f64)| {
         let (noise, weight) = scale(*question);
@@ -107,8 +115,8 @@ fn cost(answers: &Answers) -> f64 {
     answers.iter().map(counts).sum()
 }
 
-/// Returns the cost of different shapes of the same functions in two bands, which one product measured on one
-/// goniometer does not have.
+/// Returns the cost, in the sum of misfits, of differences in shape between the functions of two bands, given by
+/// evidence and reading; one product measured on one goniometer has no such differences.
 fn between_bands(a: (&Evidence, &Reading), b: (&Evidence, &Reading)) -> f64 {
     let mut sum = 0.0;
     for slot in 0..4 {
@@ -120,7 +128,8 @@ fn between_bands(a: (&Evidence, &Reading), b: (&Evidence, &Reading)) -> f64 {
     sum
 }
 
-/// Returns the best explanation of the misfits, however small its gain; `None` if there is nothing to explain.
+/// Returns the best explanation of the misfits of one or both bands, however small its gain; `None` if there is nothing
+/// to explain.
 pub(super) fn judge(sides: &[Side]) -> Option<Verdict> {
     let plain: Vec<Reading> = sides.iter().map(|side| as_it_is(side.evidence.blocks)).collect();
     let own: Vec<f64> = sides.iter().zip(&plain).map(|(side, reading)| cost(&side.evidence.answers(reading))).collect();

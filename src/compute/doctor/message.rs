@@ -1,4 +1,4 @@
-//! Message of the best explanation, with its repairs.
+//! Messages about the best explanation of a dataset's misfits, with its repairs.
 
 use super::diagnosis::{Confidence, Diagnosis};
 use super::evidence::Question;
@@ -6,7 +6,7 @@ use super::hypotheses::{Fault, Hypothesis};
 use super::judgement::{ASK, Candidate, SURE, Verdict};
 use super::repair::{BandScope, BlockScope, Repair};
 
-/// Returns the names of the functions that a hypothesis is about.
+/// Returns the names of the functions that a hypothesis is about, as text for messages.
 fn subject(hypothesis: &Hypothesis) -> String {
     let words = hypothesis.scopes.iter().map(|scope| match scope {
         BlockScope::All => "the whole file",
@@ -25,7 +25,7 @@ fn band(bands: BandScope) -> &'static str {
     }
 }
 
-/// Returns the repairs that undo the fault of a candidate.
+/// Returns the repairs that undo the fault of a hypothesis, in the bands that it is about.
 pub(super) fn repairs(candidate: &Candidate) -> Vec<Repair> {
     let Candidate { hypothesis, bands, .. } = candidate;
     let kind = hypothesis.fault.repair();
@@ -33,7 +33,7 @@ pub(super) fn repairs(candidate: &Candidate) -> Vec<Repair> {
     kind.map(|kind| of(kind).collect()).unwrap_or_default()
 }
 
-/// Returns the text of a misfit, to be followed by its value in percent.
+/// Returns the text for the misfit of a question, to be followed by its value in percent.
 const fn measured(question: Question) -> &'static str {
     match question {
         Question::Between => "the transmissions of both sides disagree by",
@@ -48,7 +48,7 @@ const fn measured(question: Question) -> &'static str {
     }
 }
 
-/// Returns the text of the two misfits that the repair reduces most.
+/// Returns the text about the two misfits that the repair reduces most.
 fn evidence(verdict: &Verdict) -> String {
     let mut list: Vec<&(Question, f64, f64)> = verdict.evidence.iter().filter(|(_, then, now)| then > now).collect();
     list.sort_by(|a, b| (b.1 - b.2).total_cmp(&(a.1 - a.2)));
@@ -68,7 +68,8 @@ fn evidence(verdict: &Verdict) -> String {
     words.join("; ")
 }
 
-/// Returns the finding, once for each of its repairs; nothing if the gain is too small.
+/// Returns the finding about the best explanation, once for each of its repairs; an empty list if its gain is too
+/// small.
 pub(super) fn diagnoses(verdict: &Verdict) -> Vec<Diagnosis> {
     if !verdict.asks() {
         return Vec::new();

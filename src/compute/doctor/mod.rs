@@ -4,12 +4,12 @@
 //! in [`Dataset::findings`] and are included. [`repaired()`] makes the repair that a finding offers; nothing is ever
 //! repaired without a request.
 //!
-//! Comparisons between functions are made on common cells by through direction ([`blocks`]), where a clear pane is a
-//! diagonal matrix and reciprocity a plain transpose. A fault is a hypothesis about all blocks of a file together
-//! (`hypotheses`): the numbers are read as if it were undone (`reading`), every reading is rated by the same few
-//! questions (`evidence`), and the best explanation is reported, and offered as certain where its lead over all others
-//! is large (`judgement`). Where no question contradicts a reading, as when all functions are upside down together, the
-//! data do not show the fault; the sentence about the sun then asks the user.
+//! Functions are compared on common cells of directions of undeviated light ([`blocks`]), where a clear pane is a
+//! diagonal matrix and reciprocity a plain transpose. A fault is a hypothesis about all functions of a file together
+//! (`hypotheses`): the numbers are interpreted as if the fault were undone (a `reading`), every reading is rated by the
+//! same few questions (`evidence`), and the best explanation is reported, as certain where its lead over all others is
+//! large (`judgement`). Faults that contradict no question, e.g. all functions upside down together, cannot be seen in
+//! the data; a sentence about the light of the sun then asks the user (`orientation`).
 
 mod at;
 pub mod blocks;
@@ -46,7 +46,7 @@ use rayon::prelude::*;
 use std::borrow::Borrow;
 
 /// Returns all findings about a dataset, worst severity first: those of the reader and those of the data check. A
-/// finding with several repairs comes once with each of them.
+/// finding with several repairs is listed once with each of them.
 pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list: Vec<Diagnosis> = dataset.findings.iter().cloned().map(Diagnosis::from).collect();
     list.extend(examined(dataset));
@@ -68,7 +68,7 @@ pub fn examine(dataset: &Dataset) -> Vec<Diagnosis> {
     kept
 }
 
-/// Returns the findings about each of several datasets, computed in parallel; states with the same data are examined
+/// Returns the findings about each of several datasets, computed in parallel; datasets with equal data are examined
 /// once.
 pub fn examine_all(datasets: &[impl Borrow<Dataset> + Sync]) -> Vec<Vec<Diagnosis>> {
     let same = |a: &Dataset, b: &Dataset| {
@@ -95,6 +95,7 @@ pub fn findings(dataset: &Dataset) -> Vec<Finding> {
     examined(dataset).into_iter().map(|one| one.finding).collect()
 }
 
+/// Returns all findings about a dataset, unsorted: those of the reader and those of all checks.
 fn examined(dataset: &Dataset) -> Vec<Diagnosis> {
     let mut list = identity::check(dataset);
     list.extend(copies::between_bands(dataset));
@@ -133,21 +134,21 @@ fn judged(dataset: &Dataset, visible: Option<&Blocks>, solar: Option<&Blocks>) -
     judgement::judge(&sides)
 }
 
-/// Best explanation of everything that can be wrong with the blocks of a dataset together, whether or not it is
-/// reported.
+/// Best explanation of the misfits of a dataset, whether or not it is reported: repairs, gain and lead.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Standing {
-    /// Repairs that undo the fault.
+    /// Repairs that undo the fault that the explanation assumes.
     pub repairs: Vec<Repair>,
-    /// Reduction of the sum of misfits by the repairs; the finding is reported from 0.9 on.
+    /// Reduction of the sum of misfits (weighted logarithms, dimensionless) by the repairs; the fault is reported from
+    /// 0.9 on.
     pub gain: f64,
-    /// Lead over every other explanation, including that nothing is wrong; at most 1.6, from which the finding is
-    /// certain.
+    /// Difference in gain from every other explanation, including that nothing is wrong; at most 1.6, from which the
+    /// finding is certain.
     pub lead: f64,
 }
 
-/// Returns repairs, gain and lead of the best explanation; `None` if the numbers leave nothing to explain. For checking
-/// the choice of explanations itself.
+/// Returns repairs, gain and lead of the best explanation of a dataset's misfits; `None` if the numbers leave nothing
+/// to explain. Used to test the choice of explanations.
 pub fn standing(dataset: &Dataset) -> Option<Standing> {
     let blocks = Blocks::new(dataset, &dataset.visible);
     let solar = dataset.solar.as_ref().and_then(|solar| Blocks::new(dataset, solar));

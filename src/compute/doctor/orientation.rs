@@ -1,8 +1,9 @@
-//! Check of the orientation by light from a sun at 45° altitude: the user knows the product and sees whether up is up.
+//! Check of the orientation by light from a sun at 45° altitude: the user knows the product and recognises whether up
+//! and down are right.
 //!
-//! A dataset all of whose functions are upside down, or whose sides are all exchanged, contradicts nothing. What can
-//! be said is what is usual: devices are mounted so that the sun from above passes less than light from below, and
-//! with the brighter face out. What is unusual is asked about.
+//! A dataset whose functions are all upside down, or whose sides are all exchanged, contradicts nothing. It can only be
+//! unusual: devices are usually mounted so that they transmit less light from above than from below, and with the
+//! brighter face outside. The user is asked about data that are not so.
 
 use super::blocks::{Block, Blocks, Turn};
 use super::{Diagnosis, Repair, RepairKind};
@@ -10,27 +11,27 @@ use crate::compute::btdf::{Btdf, Component, Dataset, Finding, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Incident};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// Difference from its own image up to which a measured function counts as symmetric. Weighted share. Chosen: affects
+/// Relative difference from its own mirror image up to which a measured function counts as symmetric. Chosen: affects
 /// reporting only.
 const UNEVEN: f64 = 0.02;
 
-/// Azimuth on either side of the sun in front at which the function is evaluated. \[rad\] Far above rounding, far below
-/// the width of cells.
+/// Azimuth offset to either side of the vertical plane through the normal at which a function is evaluated for a sun in
+/// that plane. \[rad\] Far above rounding, far below the width of cells.
 const ASIDE: f64 = 1e-3;
 
-/// Division of the transmitted light of one incident direction between up and down, right and left.
+/// Distribution of the transmitted light of one incident direction between up and down, right and left.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ways {
     /// Direct-hemispherical transmittance for that incident direction.
     pub tau: f64,
-    /// Share that leaves upwards; the rest leaves downwards.
+    /// Share of the transmitted light that leaves upwards, 0 … 1; the rest leaves downwards.
     pub up: f64,
-    /// Share that leaves to the right seen from the room; the rest leaves to the left.
+    /// Share of the transmitted light that leaves to the right, seen from the room, 0 … 1; the rest leaves to the left.
     pub right: f64,
 }
 
 impl Ways {
-    /// Returns the shares for one incident direction; `None` when nothing passes.
+    /// Returns transmittance and shares for one incident direction; `None` when nothing is transmitted.
     pub fn of(btdf: &Btdf, incident: Incident) -> Option<Self> {
         let half = |value: f64| if value.abs() < 1e-9 { 0.5 } else { f64::from(u8::from(value > 0.0)) };
         let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
@@ -51,10 +52,11 @@ impl Ways {
         (sum > 0.0).then(|| Self { tau: sum, up: up / sum, right: right / sum })
     }
 
-    /// Returns the shares for a sun at 45° altitude, perpendicular to the façade in plan; `None` when nothing passes.
+    /// Returns transmittance and shares for a sun at 45° altitude, perpendicular to the façade in plan; `None` when
+    /// nothing is transmitted.
     ///
-    /// The value is the mean of two suns a little to the right and to the left: the perpendicular direction is a border
-    /// between cells of many functions, where the value would be that of one side.
+    /// Values are means for two suns, a little to the right and to the left: the perpendicular plane is a border
+    /// between cells of many functions, where the values would be those of one side.
     pub fn from_above(btdf: &Btdf) -> Option<Self> {
         let beside = |aside: f64| Self::of(btdf, Incident(Dir::from_theta_phi(FRAC_PI_4, FRAC_PI_2 + aside)));
         match (beside(ASIDE), beside(-ASIDE)) {
@@ -68,7 +70,8 @@ impl Ways {
     }
 }
 
-/// Returns the sentence about a sun at 45° altitude in front of the façade; `None` when nothing of it passes.
+/// Returns a sentence for the user about the light that the data transmit from a sun at 45° altitude in front of the
+/// façade; `None` when nothing is transmitted.
 pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
     let ways = Ways::from_above(btdf)?;
     let (up, down) = (100.0 * ways.up, 100.0 * (1.0 - ways.up));
@@ -87,13 +90,14 @@ pub fn sun_from_above(btdf: &Btdf) -> Option<String> {
     Some(format!("With the sun 45° above in front, {:.0} % passes; {text}.", 100.0 * ways.tau))
 }
 
-/// Returns the mean transmittance of light from 30 to 60° above (or below) in front.
+/// Returns the mean direct-hemispherical transmittance for light from 30° to 60° above (or below) the normal, at the
+/// azimuth `phi` \[rad\].
 fn from(btdf: &Btdf, phi: f64) -> f64 {
     let angles = [30.0_f64, 40.0, 50.0, 60.0];
     angles.iter().map(|theta| btdf.tau(Incident(Dir::from_theta_phi(theta.to_radians(), phi)))).sum::<f64>() / 4.0
 }
 
-/// Returns a finding with the reflectance of each side if the sides differ, so that the user can compare which side is
+/// Returns a finding that states the reflectance of each side if they differ, so that the user can check which side is
 /// outside.
 fn sides(dataset: &Dataset, blocks: &Blocks) -> Option<Diagnosis> {
     let n = blocks.weight.len();
@@ -128,6 +132,7 @@ fn sides(dataset: &Dataset, blocks: &Blocks) -> Option<Diagnosis> {
     Some(Diagnosis::from(Finding::info("sides", message)).with(Repair::whole(RepairKind::SwapSides)))
 }
 
+/// Returns the sentence about the sun as a finding, and findings about an unusual orientation with their repairs.
 pub(super) fn check(dataset: &Dataset, blocks: Option<&Blocks>) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     let Some(btdf) = dataset.transmission() else { return list };

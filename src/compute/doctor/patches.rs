@@ -6,13 +6,14 @@ use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::Dir;
 
-/// Ratio to the values beside it from which a value in the last 10° before grazing is a spike. Chosen: affects
-/// reporting only.
+/// Ratio to the neighbouring values from which a value in the last 10° before grazing counts as a spike. Chosen:
+/// affects reporting only.
 const SPIKE: f64 = 2.0;
-/// Polar angle from which incidence counts as grazing: 79°. \[rad\] Chosen: holds the middle of the outermost Klems
-/// ring (82.5°), not of the one before; affects reporting only.
+/// Polar angle from which incidence counts as grazing: 79°. \[rad\] Chosen: includes the middle of the outermost Klems
+/// ring (82.5°), not that of the next one; affects reporting only.
 const GRAZING: f64 = 1.38;
 
+/// Returns findings about missing patches and spikes in all functions of a band.
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     let mut list = Vec::new();
     for component in Component::ALL {
@@ -23,6 +24,8 @@ pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     list
 }
 
+/// Returns a finding if a function is zero for many incident directions, or for single ones among neighbours with
+/// light.
 fn gaps(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option<Diagnosis> {
     let n = blocks.weight.len();
     let largest = block.tau.iter().copied().fold(0.0, f64::max);
@@ -67,7 +70,8 @@ fn gaps(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option
     Some(Finding::warning("missing-patches", message).into())
 }
 
-/// Returns the cells that are zero although both neighbours on their ring have light.
+/// Returns the cells whose value is zero although the neighbours on their ring have light; `largest`: largest of the
+/// values.
 fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
     let mut list = Vec::new();
     for (index, ring) in blocks.basis.rings().iter().enumerate() {
@@ -109,6 +113,7 @@ fn alone(blocks: &Blocks, values: &[f64], largest: f64) -> Vec<usize> {
     list
 }
 
+/// Returns a finding if a function has values far above their neighbours near grazing incidence.
 fn spikes(at: &At, blocks: &Blocks, component: Component, block: &Block) -> Option<Diagnosis> {
     let transmission = component.is_transmission();
     let rings = blocks.tau_by_ring(block);

@@ -1,11 +1,12 @@
-//! Check of reciprocity between both sides. Graded, never passed or failed: measured data of fabrics miss it by 20 to
-//! 60 %.
+//! Check of reciprocity between the transmissions of both sides. The result is a grade, not pass or fail: measured data
+//! of fabrics deviate by 20 to 60 %.
 
 use super::at::At;
 use super::diagnosis::Diagnosis;
 use crate::compute::btdf::{Component, Finding, reciprocity_error};
 
-/// Returns the mean difference between the transmissions of both sides; `None` unless the source has both.
+/// Returns the reciprocity error of a band, the relative mean difference between the transmissions of both sides, one
+/// of them with the light reversed; `None` unless the source has both.
 pub(super) fn of(at: &At) -> Option<f64> {
     let derived = &at.dataset.derived;
     if derived.contains(&Component::TransmissionFront) || derived.contains(&Component::TransmissionBack) {
@@ -14,6 +15,7 @@ pub(super) fn of(at: &At) -> Option<f64> {
     reciprocity_error(at.band.transmission_front.as_ref()?, at.band.transmission_back.as_ref()?)
 }
 
+/// Returns a finding that states the reciprocity error of a band with its grade.
 pub(super) fn check(at: &At) -> Option<Diagnosis> {
     let error = of(at)?;
     let (grade, remark) = match error {

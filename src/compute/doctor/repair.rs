@@ -1,10 +1,10 @@
-//! Repairs by name: kind, bands and functions; their keys in files, and their inverses.
+//! Repairs of datasets: kind, bands and functions; their keys in files, and their inverses.
 
 use crate::compute::btdf::Component;
 use std::fmt;
 use std::str::FromStr;
 
-/// Kind of repair.
+/// Kind of repair of a dataset's functions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum RepairKind {
     /// Exchange of up and down, for incident and emergent light.
@@ -13,13 +13,13 @@ pub enum RepairKind {
     MirrorLeftRight,
     /// Rotation by 180° about the normal.
     TurnHalfRound,
-    /// Exchange of the blocks of outside and inside.
+    /// Exchange of the functions of outside and inside.
     SwapSides,
     /// Exchange of incident and emergent directions.
     Transpose,
-    /// Conversion of percent to fractions.
+    /// Division of the values by 100: conversion from percent to fractions.
     DivideBy100,
-    /// Conversion of fractions to percent; undoes [`Self::DivideBy100`].
+    /// Multiplication of the values by 100; undoes [`Self::DivideBy100`].
     MultiplyBy100,
     /// Division of the values by the cosine of the emergent angle.
     RemoveCosine,
@@ -29,16 +29,16 @@ pub enum RepairKind {
     RemoveSolidAngle,
     /// Multiplication of the values by the projected solid angle of the emergent cell.
     MultiplySolidAngle,
-    /// Removal of the block.
+    /// Removal of a function from the dataset.
     DropBlock,
-    /// Derivation of the block from its counterpart by reciprocity.
+    /// Derivation of a transmission from that of the other side by reciprocity.
     DeriveByReciprocity,
     /// Replacement of negative values by zero.
     ClampNegative,
 }
 
 impl RepairKind {
-    /// List of all kinds.
+    /// All kinds of repair.
     pub const ALL: [Self; 14] = [
         Self::TurnUpsideDown,
         Self::MirrorLeftRight,
@@ -56,7 +56,7 @@ impl RepairKind {
         Self::ClampNegative,
     ];
 
-    /// Returns the key in files and on the command line.
+    /// Returns the key of the kind in files and on the command line.
     pub const fn word(self) -> &'static str {
         match self {
             Self::TurnUpsideDown => "turn-upside-down",
@@ -113,27 +113,27 @@ impl RepairKind {
     }
 }
 
-/// Bands that a repair covers.
+/// Spectral bands that a repair covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BandScope {
-    /// The visible band, and the solar one if there is one.
+    /// Visible band, and solar band if there is one.
     Both,
-    /// The visible band.
+    /// Visible band only.
     Visible,
-    /// The solar band.
+    /// Solar band only.
     Solar,
 }
 
-/// Functions that a repair covers.
+/// Functions (transmissions, reflections) of a band that a repair covers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BlockScope {
     /// All functions of the band.
     All,
-    /// Both transmissions.
+    /// Transmissions from both sides.
     Transmission,
-    /// Both reflections.
+    /// Reflections of both sides.
     Reflection,
-    /// One function.
+    /// One function of one side.
     One(Component),
 }
 
@@ -149,7 +149,7 @@ impl BlockScope {
         }
     }
 
-    /// Returns the key in files.
+    /// Returns the key of the functions in files and on the command line.
     pub const fn word(self) -> &'static str {
         match self {
             Self::All => "all",
@@ -160,13 +160,13 @@ impl BlockScope {
     }
 }
 
-/// Repair of some functions. Its text is `KIND`, `KIND:BLOCKS` or `KIND:BAND.BLOCKS`, e.g.
+/// Repair of functions of a dataset. Its text form is `KIND`, `KIND:BLOCKS` or `KIND:BAND.BLOCKS`, e.g.
 /// `transpose:visible.transmission_back`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Repair {
     /// Kind of the repair.
     pub kind: RepairKind,
-    /// Bands that are repaired.
+    /// Spectral bands that are repaired.
     pub bands: BandScope,
     /// Functions that are repaired.
     pub blocks: BlockScope,
@@ -178,7 +178,7 @@ impl Repair {
         Self { kind, bands: BandScope::Both, blocks: BlockScope::All }
     }
 
-    /// Returns the repair that undoes this one; `None` if values are lost and only the source has them.
+    /// Returns the repair that undoes this one; `None` if this one loses values, which only the source file still has.
     pub fn inverse(self) -> Option<Self> {
         Some(Self { kind: self.kind.inverse()?, ..self })
     }
@@ -211,7 +211,7 @@ impl fmt::Display for Repair {
     }
 }
 
-/// Error for a text that is not a repair.
+/// Error for a text that is not a valid repair.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("no repair '{0}'; expected KIND[:[BAND.]BLOCKS], KIND one of {kinds}", kinds = kinds())]
 pub struct NoRepair(String);
@@ -223,6 +223,7 @@ fn kinds() -> String {
 impl FromStr for Repair {
     type Err = NoRepair;
 
+    /// Parses `KIND`, `KIND:BLOCKS` or `KIND:BAND.BLOCKS`.
     fn from_str(text: &str) -> Result<Self, NoRepair> {
         let unknown = || NoRepair(text.chars().take(80).collect());
         let (word, scope) = text.split_once(':').unwrap_or((text, "all"));
@@ -241,10 +242,10 @@ impl FromStr for Repair {
     }
 }
 
-/// Marker before the list of repairs in a text on provenance.
+/// Marker that precedes the list of repairs in the text on a dataset's provenance.
 const MARK: &str = "repaired: ";
 
-/// Returns a text on provenance with repairs added to those that it already records.
+/// Returns a text on a dataset's provenance with `repairs` added to those that it already records.
 pub fn record(text: &str, repairs: &[Repair]) -> String {
     if repairs.is_empty() {
         return text.to_owned();
@@ -268,7 +269,8 @@ pub fn record(text: &str, repairs: &[Repair]) -> String {
     if before.is_empty() { format!("{MARK}{words}") } else { format!("{before}\n{MARK}{words}") }
 }
 
-/// Returns the text without its record, and the repairs recorded, in the order in which they were made.
+/// Splits a text on a dataset's provenance into the text without the record of repairs, and the recorded repairs in the
+/// order in which they were made.
 pub fn recorded(text: &str) -> (&str, Vec<Repair>) {
     let Some(at) = text.rfind(MARK) else { return (text, Vec::new()) };
     let list: Option<Vec<Repair>> = text[at + MARK.len()..].split(", ").map(|word| word.trim().parse().ok()).collect();

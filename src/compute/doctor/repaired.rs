@@ -1,4 +1,4 @@
-//! Execution of repairs. The given dataset is not changed; a repaired copy is returned.
+//! Execution of repairs of datasets. The given dataset is not changed; a repaired copy is returned.
 
 use super::derive::by_reciprocity;
 use super::repair::{BandScope, Repair, RepairKind, record};
@@ -12,31 +12,31 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Reason why a repair cannot be made.
+/// Reason why a repair of a dataset cannot be made.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RepairError {
-    /// Dataset without any of the functions to be repaired.
+    /// Dataset that has none of the functions to be repaired.
     #[error("{0}: the dataset has no such function")]
     Nothing(Repair),
-    /// Missing counterpart of the function that is to be derived.
+    /// Function to be derived by reciprocity whose counterpart of the other side is missing.
     #[error("{0}: the counterpart that it would be made from is missing")]
     NoCounterpart(Repair),
-    /// Form of the values that does not allow the repair.
+    /// Kind of data (e.g. a tensor tree) that does not allow the repair.
     #[error("{repair}: {what}")]
     Form {
-        /// Repair that was asked for.
+        /// Requested repair.
         repair: Repair,
-        /// Obstacle, in words.
+        /// Obstacle to the repair, as text.
         what: &'static str,
     },
 }
 
-/// Returns a repaired copy. The repair is recorded in the description, see [`record`]; findings stay those of the
-/// source.
+/// Returns a repaired copy of a dataset. The repair is recorded in its description, see [`record`]; the findings remain
+/// those of the source file.
 ///
 /// # Errors
-/// Returns an error if the dataset lacks the functions or their counterpart, or if the form of the values does not
-/// allow the repair.
+/// Returns an error if the dataset lacks the functions or their counterpart, or if the kind of its data does not allow
+/// the repair.
 pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairError> {
     let mut out = dataset.clone();
     let mut done = false;
@@ -77,8 +77,8 @@ pub fn repaired(dataset: &Dataset, repair: Repair) -> Result<Dataset, RepairErro
     Ok(out)
 }
 
-/// Derives a function again where its origin changed and it did not change as that did: factors of emergent angles are
-/// not those of the light in the reverse direction.
+/// Derives a transmission by reciprocity again if the repair changed the transmission of the other side that it was
+/// derived from: factors of emergent angles do not apply to the light in the reverse direction.
 fn rederive(band: &mut Band, component: Component, repair: Repair) {
     let factor = matches!(
         repair.kind,
@@ -99,7 +99,7 @@ fn rederive(band: &mut Band, component: Component, repair: Repair) {
     }
 }
 
-/// Returns a copy with several repairs made, one after the other.
+/// Returns a copy of a dataset with several repairs made, one after the other.
 ///
 /// # Errors
 /// Returns the error of the first repair that cannot be made.
@@ -107,7 +107,7 @@ pub fn repaired_all(dataset: &Dataset, repairs: &[Repair]) -> Result<Dataset, Re
     repairs.iter().try_fold(dataset.clone(), |dataset, repair| repaired(&dataset, *repair))
 }
 
-/// Repairs a band; returns whether it had any of the functions.
+/// Repairs one band in place, and returns whether it has any of the functions to be repaired.
 fn repair_band(band: &mut Band, repair: Repair) -> Result<bool, RepairError> {
     let meant: Vec<Component> = Component::ALL.into_iter().filter(|c| repair.blocks.holds(*c)).collect();
     match repair.kind {
@@ -166,7 +166,8 @@ fn form(repair: Repair) -> impl Fn(&'static str) -> RepairError {
     move |what| RepairError::Form { repair, what }
 }
 
-/// Returns the same numbers as a block of the other side, whose azimuths files count half a turn further.
+/// Returns the same values as a function of the other side, for which files count azimuths from a direction 180°
+/// further.
 fn relabelled(btdf: Btdf, axes: TreeAxes) -> Result<Btdf, &'static str> {
     let scattered = match btdf.scattered {
         Some(Scattered::Tree(tree)) => {
@@ -188,6 +189,7 @@ fn is_klems(basis: &RingBasis) -> bool {
     matches!(basis.azimuth(), AzimuthMap::KLEMS_FRONT | AzimuthMap::KLEMS_BACK)
 }
 
+/// Returns one function with a repair of the given kind made, for repairs that change functions one by one.
 fn changed(btdf: &Btdf, kind: RepairKind) -> Result<Btdf, &'static str> {
     let mirror = |x, y| -> Result<Btdf, &'static str> {
         Ok(Btdf { regular: btdf.regular.clone(), scattered: turned(btdf.scattered.clone(), Mirror { x, y })? })
@@ -208,7 +210,7 @@ fn changed(btdf: &Btdf, kind: RepairKind) -> Result<Btdf, &'static str> {
     }
 }
 
-/// Axes that are reversed.
+/// Axes of the façade frame that are reversed: x (left and right), y (up and down).
 #[derive(Clone, Copy)]
 struct Mirror {
     x: bool,
@@ -221,7 +223,7 @@ impl Mirror {
         Dir::from_unit(DVec3::new(if self.x { -v.x } else { v.x }, if self.y { -v.y } else { v.y }, v.z))
     }
 
-    /// Returns the same cells, each with the mirrored direction.
+    /// Returns the cells in the same order, each with its directions mirrored.
     fn basis(self, basis: &RingBasis) -> RingBasis {
         let own = basis.azimuth();
         let azimuth = match (self.x, self.y) {
@@ -234,6 +236,7 @@ impl Mirror {
     }
 }
 
+/// Returns scattered data with all incident and emergent directions mirrored.
 fn turned(scattered: Option<Scattered>, mirror: Mirror) -> Result<Option<Scattered>, &'static str> {
     Ok(Some(match scattered {
         None => return Ok(None),
@@ -313,7 +316,7 @@ fn transposed(btdf: &Btdf) -> Result<Btdf, &'static str> {
     Ok(Btdf { regular: btdf.regular.clone(), scattered })
 }
 
-/// Multiplies the values by a factor of the emergent cell; `all`: unscattered light as well.
+/// Returns a function with its values multiplied by a factor of the emergent cell; `all`: the regular part as well.
 fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf, &'static str> {
     // With `all` the factor is the same for every cell.
     let anywhere = factor(&RingBasis::hemisphere().cell(0));
@@ -351,7 +354,8 @@ fn scaled(btdf: &Btdf, all: bool, factor: impl Fn(&Cell) -> f64) -> Result<Btdf,
     Ok(Btdf { regular, scattered })
 }
 
-/// Multiplies the leaves by the factor at the middle of their emergent square, taken as a cell of the same size.
+/// Copies a subtree of a tensor tree to `nodes` with its leaves multiplied by the factor at the middle of their
+/// emergent square, which is treated as a cell of the same size.
 fn scale_leaves(
     tree: &TensorTree,
     node: usize,
@@ -384,6 +388,7 @@ fn scale_leaves(
     }
 }
 
+/// Returns a function with negative values replaced by 0.
 fn clamped(btdf: &Btdf) -> Result<Btdf, &'static str> {
     let scattered = match &btdf.scattered {
         Some(Scattered::Cells(matrix)) => {

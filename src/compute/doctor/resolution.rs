@@ -3,13 +3,14 @@
 use super::Diagnosis;
 use crate::compute::btdf::{Dataset, Finding, Scattered};
 
-/// Cell width up to which the sun's lobe, and with it the luminance that causes glare, is resolved: 1.5°, some three
-/// diameters of the sun. \[rad\] Chosen: affects wording only.
+/// Width of emergent cells up to which the sun's image, and thus the luminance that causes glare, is resolved: 1.5°,
+/// some three diameters of the sun. \[rad\] Chosen: affects wording only.
 const GLARE: f64 = 0.026;
-/// Cell width up to which patches of redirected sun are in their place, with soft edges: 4°. \[rad\] Chosen: affects
-/// wording only.
+/// Width of emergent cells up to which patches of redirected sunlight in the room have their right position, with soft
+/// edges: 4°. \[rad\] Chosen: affects wording only.
 const PATCHES: f64 = 0.07;
 
+/// Returns a finding that states the angular resolution and the calculations that it suffices for.
 pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {
     let btdf = dataset.transmission().or(dataset.visible.transmission_back.as_ref())?;
     let side = |count: usize| (2.0 * std::f64::consts::PI / count as f64).sqrt();

@@ -1,4 +1,4 @@
-//! Symmetries of the visible transmission, besides the one that its form declares.
+//! Symmetries of the visible transmission, beyond the one that its kind of data implies.
 
 use super::at::At;
 use super::blocks::{Blocks, Turn};
@@ -6,9 +6,12 @@ use super::diagnosis::Diagnosis;
 use super::repair::BandScope;
 use crate::compute::btdf::{Component, Finding, Scattered, TreeRank};
 
-/// Difference below which asymmetry is noise of measuring or sampling. Weighted share. Chosen: affects wording only.
+/// Relative difference of a function from its image below which asymmetry counts as measurement or sampling noise.
+/// Chosen: affects wording only.
 const NOISE: f64 = 0.05;
 
+/// Returns a finding that states the symmetries, and a warning where a rank-3 tree's data contradict its declared
+/// symmetry.
 pub(super) fn check(at: &At, blocks: &Blocks) -> Vec<Diagnosis> {
     if at.scope != BandScope::Visible {
         return Vec::new();

@@ -9,21 +9,21 @@ use std::f64::consts::PI;
 /// diameter (0.53°); held by the test `parts_of_a_disc_are_the_disc_and_a_fan_is_long`.
 const TOUCHING: f64 = 0.3 * PI / 180.0;
 
-/// Beam of sunlight at an eye.
+/// Beam of direct or redirected sunlight that arrives at an eye.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
-    /// Unit vector from the eye towards the beam's origin.
+    /// Unit vector from the eye towards the direction that the beam comes from, in the room's axes.
     pub to: DVec3,
-    /// Illuminance across the beam where no part of it is hidden. \[lx\]
+    /// Illuminance of the whole, unobstructed beam on a plane perpendicular to it. \[lx\]
     pub normal: f64,
-    /// Share of the beam that the eye sees, 0 … 1.
+    /// Share of the beam's cross-section that reaches the eye unobstructed, 0 … 1.
     pub share: f64,
 }
 
-/// Image of the sun at an eye.
+/// Image of the sun as an eye sees it: a disc, or an ellipse where mirrors spread the beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
-    /// Unit vector from the eye to the middle of the disc.
+    /// Unit vector from the eye to the middle of the disc, in the room's axes.
     pub to: DVec3,
     /// Luminance of the disc. \[cd/m²\]
     pub luminance: f64,
@@ -31,8 +31,9 @@ pub struct Disc {
     pub solid_angle: f64,
 }
 
-/// Returns the discs of beams. A single beam is as large as the sun; of beams that belong together the scatter of their
-/// directions gives the size of the image: an ellipse of the same second moments, nowhere narrower than the sun.
+/// Returns the images of the sun that the beams `rays` form at the eye. A single beam is as large as the sun. For beams
+/// less than 0.3° from each other, the scatter of their directions gives the size of one common image: an ellipse of
+/// the same second moments, nowhere narrower than the sun.
 pub fn discs(rays: &[Ray]) -> Vec<Disc> {
     let seen: Vec<Ray> = rays.iter().copied().filter(|ray| ray.share > 0.0 && ray.normal > 0.0).collect();
     let mut open: Vec<usize> = (0..seen.len()).rev().collect();
@@ -54,7 +55,7 @@ pub fn discs(rays: &[Ray]) -> Vec<Disc> {
     found
 }
 
-/// Returns the common image of beams.
+/// Returns the common image of beams that belong together; `None` if their directions cancel.
 fn image(rays: &[Ray]) -> Option<Disc> {
     let whole: f64 = rays.iter().map(|ray| ray.normal).sum();
     let seen: f64 = rays.iter().map(|ray| ray.normal * ray.share.min(1.0)).sum();

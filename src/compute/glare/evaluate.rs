@@ -25,30 +25,33 @@ impl Default for Threshold {
     }
 }
 
-/// Field of view of an observer.
+/// Field of view of an observer: luminances of the apertures, discs of the sun, and illuminance at the eye.
 #[derive(Debug, Clone, Copy)]
 pub struct View<'a> {
-    /// Patches of the apertures.
+    /// Patches of the apertures as the eye sees them.
     pub field: &'a Field,
-    /// Luminance of every patch. \[cd/m²\]
+    /// Luminance of every patch of `field` towards the eye, in the order of the patches. \[cd/m²\]
     pub luminance: &'a [f64],
     /// Discs of direct or redirected sunlight.
     pub discs: &'a [Disc],
-    /// Illuminance at the eye, all light counted. \[lx\]
+    /// Illuminance at the eye on the plane perpendicular to the line of sight, with the light of apertures, walls and
+    /// sun. \[lx\]
     pub vertical: Estimate,
-    /// Relative uncertainty that all luminances have in common.
+    /// Relative uncertainty of the patches' luminances, 0.01 for 1 %; all are assumed to be too high or too low
+    /// together.
     pub relative: f64,
 }
 
-/// Glare of one observer.
+/// Glare of one observer at one moment: daylight glare probability, mean luminances and glare sources.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Glare {
-    /// Daylight glare probability.
+    /// Daylight glare probability DGP, 0 … 1, with its estimated absolute error.
     pub dgp: Estimate,
-    /// Mean luminance of the hemisphere in front of the eye, walls taken as uniform. \[cd/m²\]
+    /// Mean luminance of the hemisphere in front of the eye, for which the walls are assumed to have one uniform
+    /// luminance. \[cd/m²\]
     pub mean: f64,
-    /// Mean luminance of all but the apertures. \[cd/m²\] If it is above the threshold, the error of `dgp` includes the
-    /// glare of uniform walls.
+    /// Mean luminance of all that the eye sees besides the apertures' patches and the sun's discs: walls, floor,
+    /// ceiling. \[cd/m²\] If it is above the threshold, the error of `dgp` includes the glare of uniform walls.
     pub walls: f64,
     /// Luminance above which light is a glare source. \[cd/m²\]
     pub threshold: f64,
@@ -56,17 +59,19 @@ pub struct Glare {
     pub sources: Sources,
 }
 
-/// Hemisphere in front of an eye: patches and discs as given, all else as uniform as the rest of the illuminance
-/// requires.
+/// Hemisphere in front of an eye: patches and discs as given, all else of the one luminance that causes the remaining
+/// illuminance.
 struct Whole {
     /// Mean luminance. \[cd/m²\]
     mean: f64,
     /// Luminance of all but patches and discs. \[cd/m²\]
     walls: f64,
-    /// Centroid of the light in the picture. \[rad\]
+    /// Centroid of the luminance in the eye's equiangular picture, x to the right, y up. \[rad\]
     middle: DVec2,
 }
 
+/// Computes the luminance of the walls from the illuminance that patches and discs do not cause, and the means of the
+/// hemisphere.
 fn whole(view: &View<'_>) -> Whole {
     let (mut flux, mut illuminance) = (0.0, 0.0);
     // The centroid of a uniform hemisphere is that of the picture: walls lack what the apertures have.
@@ -91,9 +96,9 @@ fn whole(view: &View<'_>) -> Whole {
     Whole { mean: all / (2.0 * PI), walls, middle }
 }
 
-/// Finds the glare sources and computes DGP. Its error contains that of the illuminance, that of the luminances, the
-/// effect of the width of the patches, and that of patches so near the threshold that they may or may not be glare
-/// sources.
+/// Finds the glare sources of a field of view and computes its DGP. The error of DGP contains that of the illuminance,
+/// that of the luminances, the effect of the width of the patches, and that of patches so near the threshold that they
+/// may or may not be glare sources.
 pub fn glare(view: &View<'_>, threshold: Threshold) -> Glare {
     let Whole { mean, walls, middle } = whole(view);
     let limit = match threshold {

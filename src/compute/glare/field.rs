@@ -15,37 +15,39 @@ const WIDEST: f64 = 2.0 * std::f64::consts::PI / 180.0;
 /// whose difference is the error; no test depends on its exact value.
 const FEWEST: f64 = 6.0;
 
-/// Patch of an aperture as seen by an eye.
+/// Patch of an aperture as an eye sees it: its direction, position in the eye's picture, and solid angles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
-    /// Direction from the eye to the patch's middle in the aperture's frame: the through direction of the light that
-    /// comes from there.
+    /// Direction from the eye to the patch's middle, in the aperture's frame (x right seen from outside, y up, z
+    /// outward). Light that arrives at the eye from there leaves the aperture in the opposite direction.
     pub through: Dir<Facade>,
     /// Unit vector from the eye to the patch's middle in the room's axes.
     pub to: DVec3,
-    /// Place of the patch in the eye's picture. \[rad\]
+    /// Position of the patch's middle in the eye's equiangular picture: x to the right, y up, at a distance from the
+    /// middle equal to the angle off the line of sight. \[rad\]
     pub place: DVec2,
     /// Solid angle of the patch. \[sr\]
     pub solid_angle: f64,
-    /// Solid angle times the cosine to the line of sight. \[sr\]
+    /// Projected solid angle of the patch: solid angle times the cosine of the angle to the line of sight. \[sr\]
     pub projected: f64,
-    /// Parity of row and column, 0 to 3: the difference between the four quarters gives the error due to the width of
-    /// the patches.
+    /// Quarter of the patches that this one belongs to, 0 to 3: twice the parity of its row plus that of its column.
+    /// The difference between the four quarters gives the error due to the width of the patches.
     pub quarter: usize,
 }
 
-/// All apertures in front of an eye.
+/// Apertures as an eye sees them, split into patches.
 #[derive(Debug, Clone)]
 pub struct Field {
-    /// Eye of the observer.
+    /// Eye of the observer: its position and line of sight.
     pub gaze: Gaze,
-    /// Patches in front of the eye.
+    /// Patches of all apertures that lie in front of the plane of the eye.
     pub patches: Vec<Patch>,
-    /// Range of the patches of each aperture.
+    /// Range of indices in `patches` of each aperture's patches, one entry per aperture.
     pub of: Vec<Range<usize>>,
-    /// Patches that share a side with each: left, right, below, above.
+    /// Indices of the patches that share a side with each patch: left, right, below, above, i.e. towards −x, +x, −y, +y
+    /// of the aperture's frame; `None` beyond its edge.
     beside: Vec<[Option<usize>; 4]>,
-    /// Patches by rising height of their direction.
+    /// Indices of the patches in the order of rising z of their direction `to`.
     rising: Vec<usize>,
 }
 
@@ -71,6 +73,8 @@ impl Field {
         field
     }
 
+    /// Splits an aperture into patches of equal angles, at most `widest` \[rad\] wide, and adds those in front of the
+    /// eye.
     fn cut(&mut self, aperture: &Aperture, view: &View, widest: f64) {
         let [columns, rows] = [view.x, view.y].map(|limits| knots(limits, view.distance, widest));
         let (width, height) = (columns.len() - 1, rows.len() - 1);
@@ -113,23 +117,26 @@ impl Field {
         }
     }
 
-    /// Returns the patches that share a side with one: left, right, below, above.
+    /// Returns the indices of the patches that share a side with the patch `patch`: left, right, below, above; `None`
+    /// beyond the aperture's edge.
     pub(super) fn beside(&self, patch: usize) -> [Option<usize>; 4] {
         self.beside[patch]
     }
 
-    /// Returns the patches by rising height of their direction.
+    /// Returns the indices of the patches in the order of rising z of their direction from the eye.
     pub(super) fn rising(&self) -> &[usize] {
         &self.rising
     }
 
-    /// Returns the solid angle of all patches, and their projected solid angle. \[sr\]
+    /// Returns the sum of the patches' solid angles, and that of their projected solid angles (towards the line of
+    /// sight). \[sr\]
     pub fn solid_angles(&self) -> [f64; 2] {
         self.patches.iter().fold([0.0; 2], |[all, projected], p| [all + p.solid_angle, projected + p.projected])
     }
 }
 
-/// Returns the limits of the patches along one side, at equal steps of the angle.
+/// Returns the coordinates of the patches' limits along one side of an aperture
+/// \[m, like its limits and its distance from the eye\], at equal steps of the angle, none above `widest` \[rad\].
 fn knots([low, high]: [f64; 2], distance: f64, widest: f64) -> Vec<f64> {
     let (from, to) = (low.atan2(distance), high.atan2(distance));
     let count = ((to - from) / widest).ceil().max(FEWEST);
@@ -137,7 +144,7 @@ fn knots([low, high]: [f64; 2], distance: f64, widest: f64) -> Vec<f64> {
     std::iter::once(low).chain(inner).chain(std::iter::once(high)).collect()
 }
 
-/// Returns the coordinate at the mean angle between two coordinates.
+/// Returns the coordinate whose angle, seen from the eye at `distance`, is the mean of those of `low` and `high`. \[m\]
 fn middle(low: f64, high: f64, distance: f64) -> f64 {
     (0.5 * (low.atan2(distance) + high.atan2(distance))).tan() * distance
 }

@@ -5,7 +5,7 @@
 use crate::compute::room::direct::Sensor;
 use glam::{DVec2, DVec3};
 
-/// Maximum position index, returned for all places beyond it, where no data exist: that of `evalglare`.
+/// Maximum position index, as in `evalglare`. Returned wherever the formulas exceed it, since no data exist there.
 const LARGEST: f64 = 16.0;
 
 /// Eye of an observer and its line of sight, in the room's axes.
@@ -31,14 +31,16 @@ impl Gaze {
         Self { position: sensor.position, forward, right: forward.cross(up), up }
     }
 
-    /// Returns the place of a unit direction in the picture: x to the right, y up. \[rad\]
+    /// Returns the position of a unit direction, given in the room's axes, in the eye's equiangular picture: x to the
+    /// right, y up; its distance from the middle is the angle off the line of sight. \[rad\]
     pub fn place(&self, to: DVec3) -> DVec2 {
         let aside = DVec2::new(to.dot(self.right), to.dot(self.up));
         let off = aside.length().atan2(to.dot(self.forward));
         aside.normalize_or_zero() * off
     }
 
-    /// Returns the direction at a place of the picture.
+    /// Returns the unit direction, in the room's axes, at a position of the eye's equiangular picture (x to the right,
+    /// y up). \[rad\]
     pub fn direction(&self, place: DVec2) -> DVec3 {
         let off = place.length();
         let aside = place.normalize_or_zero();
@@ -46,8 +48,8 @@ impl Gaze {
     }
 }
 
-/// Returns the position index P of a source at a place of the picture \[rad\]: factor by which it has to be brighter to
-/// disturb as much as a source on the line of sight.
+/// Returns the position index P of a glare source at a position of the eye's equiangular picture (x to the right, y up)
+/// \[rad\]: the factor by which its luminance has to be higher to disturb as much as a source on the line of sight.
 ///
 /// Above the line of sight after Guth (IES Lighting Handbook; Wienold & Christoffersen 2006, eq 2), with σ the angle
 /// off the line of sight and τ that around it from the vertical, in degrees: P = exp((35.2 − 0.31889 τ − 1.22

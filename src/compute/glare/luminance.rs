@@ -6,8 +6,9 @@ use crate::compute::direction::Emergent;
 use crate::compute::lid::{Emission, Facing};
 use std::f64::consts::FRAC_PI_2;
 
-/// Adds the scattered light of an aperture, that of luminaires in its place too, to the luminances of all patches;
-/// `aperture` is its number in the field. Regular transmission is left out.
+/// Adds the luminance of an aperture's scattered light towards the eye to that of its patches. \[cd/m²\] `aperture` is
+/// its index in `field`, `emission` its light (also that of luminaires that replace it), `luminance` has one entry per
+/// patch of the field. Regular transmission is left out.
 pub fn add_emitted(field: &Field, aperture: usize, emission: &Emission, facing: &Facing<'_>, luminance: &mut [f64]) {
     let range = field.of[aperture].clone();
     if range.is_empty() {
@@ -21,7 +22,9 @@ pub fn add_emitted(field: &Field, aperture: usize, emission: &Emission, facing: 
     }
 }
 
-/// Adds the outside that is visible through a regular transmittance. `facing` has the outside as seen from the eye.
+/// Adds the luminance of the outside that the eye sees through the regular transmittance `tau` of an aperture to that
+/// of its patches. \[cd/m²\] `aperture` is its index in `field`, `facing` has the outside as seen from the eye,
+/// `luminance` has one entry per patch of the field.
 pub fn add_seen_through(
     field: &Field,
     aperture: usize,

@@ -8,7 +8,8 @@ const LOW: f64 = 1000.0;
 
 /// Computes DGP = 5.87·10⁻⁵ E_v + 0.0918 lg(1 + Σ / E_v^1.87) + 0.16, Σ = Σ L² ω / P² (Wienold & Christoffersen 2006,
 /// eq 5), limited to 1. Below 1000 lx multiplied by e^(0.024 E_v − 4) / (1 + e^(0.024 E_v − 4)) (Wienold 2012, the
-/// low-light correction). `vertical` \[lx\], `sources` \[cd²/m⁴ sr\].
+/// low-light correction). `vertical` is E_v, the illuminance at the eye on the plane perpendicular to the line of sight
+/// \[lx\]; `sources` is Σ \[cd²/m⁴ sr\].
 pub fn dgp(vertical: f64, sources: f64) -> f64 {
     if vertical <= 0.0 {
         return 0.0;
@@ -17,7 +18,8 @@ pub fn dgp(vertical: f64, sources: f64) -> f64 {
     value.min(1.0) * low_light(vertical)
 }
 
-/// Returns Σ / E_v^1.87.
+/// Returns the contrast term Σ / E_v^1.87 of DGP for the illuminance `vertical` \[lx\] and the sum `sources` of L² ω /
+/// P² \[cd²/m⁴ sr\].
 fn contrast(vertical: f64, sources: f64) -> f64 {
     sources / vertical.powf(1.87)
 }
@@ -26,13 +28,14 @@ fn low_light(vertical: f64) -> f64 {
     if vertical < LOW { 1.0 / (1.0 + (4.0 - 0.024 * vertical).exp()) } else { 1.0 }
 }
 
-/// Computes the simplified DGP of a vertical illuminance \[lx\], 6.22·10⁻⁵ E_v + 0.184 (Wienold 2009): valid for eyes
-/// that neither the sun nor a lobe of it reaches.
+/// Computes the simplified daylight glare probability DGPs from the vertical illuminance at the eye \[lx\], 6.22·10⁻⁵
+/// E_v + 0.184 (Wienold 2009): valid for eyes that neither the sun nor a lobe of it reaches.
 pub fn dgps(vertical: f64) -> f64 {
     6.22e-5 * vertical + 0.184
 }
 
-/// Whether illuminance and DGP lie in the range in which the formula was tested with people.
+/// Whether the vertical illuminance at the eye \[lx\] and DGP lie in the range in which the DGP formula was tested with
+/// people.
 pub fn is_proven(vertical: f64, dgp: f64) -> bool {
     vertical >= LEAST_ILLUMINANCE && (0.2..=0.8).contains(&dgp)
 }

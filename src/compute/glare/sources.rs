@@ -14,14 +14,14 @@ pub const REACH: f64 = 0.1;
 /// Luminance above which light is a peak, a separate source (`evalglare -Y 50000`). \[cd/m²\]
 pub const PEAK: f64 = 5e4;
 
-/// Kind of a glare source.
+/// Kind of a glare source: bright patches of apertures, patches of peak luminance, or the sun.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Bright patches.
+    /// Aperture patches (with discs of the sun, if any) brighter than the threshold, but not above [`PEAK`].
     Bright,
-    /// Patches above [`PEAK`].
+    /// Aperture patches brighter than [`PEAK`].
     Peak,
-    /// Direct or redirected sun.
+    /// Direct or redirected sun brighter than [`PEAK`].
     Sun,
 }
 
@@ -32,32 +32,32 @@ pub struct Source {
     pub kind: Kind,
     /// Unit vector from the eye to the centroid of the source's light, in the room's axes.
     pub to: DVec3,
-    /// Mean luminance. \[cd/m²\]
+    /// Mean luminance of the source towards the eye. \[cd/m²\]
     pub luminance: f64,
     /// Solid angle of the source. \[sr\]
     pub solid_angle: f64,
-    /// Position index after Guth, or below the line of sight after Iwata.
+    /// Position index P of the source: after Guth, or below the line of sight after Iwata.
     pub position_index: f64,
 }
 
 /// All glare sources of an observer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sources {
-    /// Glare sources, the brightest first.
+    /// Glare sources in the order of falling luminance.
     pub list: Vec<Source>,
-    /// Σ L² ω / P². \[cd²/m⁴ sr\]
+    /// Sum of L² ω / P² over the sources (luminance L, solid angle ω, position index P), as in DGP. \[cd²/m⁴ sr\]
     pub sum: f64,
     /// Estimated absolute error of `sum` due to the width of the patches, from comparing halves of them.
     pub error: f64,
 }
 
-/// Light of a group of patches, or of a part of it.
+/// Sums of luminance, solid angle and position over a group of patches, or over a part of the group.
 #[derive(Debug, Clone, Copy, Default)]
 struct Light {
     solid_angle: f64,
-    /// Luminance times solid angle.
+    /// Sum of luminance times solid angle. \[cd sr/m²\]
     flux: f64,
-    /// Sum of the places in the picture, weighted by flux.
+    /// Sum of the positions in the eye's picture \[rad\], weighted by luminance times solid angle.
     place: DVec2,
 }
 
@@ -85,7 +85,7 @@ impl Light {
         self.place / self.flux
     }
 
-    /// Returns L² ω / P² with the position index of a place.
+    /// Returns L² ω / P² for the position index P of a position in the eye's picture \[rad\]. \[cd² sr/m⁴\]
     fn term(&self, place: DVec2) -> f64 {
         if self.solid_angle <= 0.0 || self.flux <= 0.0 {
             return 0.0;
@@ -105,10 +105,11 @@ impl Group {
         self.quarters.iter().fold(self.discs, |sum, quarter| sum.plus(*quarter, 1.0))
     }
 
-    /// Returns the largest difference of L² ω / P² between every other row and the others, between every other column
-    /// and the others, and between the fields of a chessboard. Half of it would be the error of their mean, were they
-    /// independent; along straight edges they are not. Rows and columns represent the solid angle of all, of which they
-    /// need not have one half each; the place is that of all, for halves lie a little aside.
+    /// Returns the error of the group's L² ω / P² due to the width of its patches: the largest difference of it between
+    /// every other row and the others, between every other column and the others, and between the fields of a
+    /// chessboard. Half of it would be the error of their mean, were they independent; along straight edges they are
+    /// not. Rows and columns represent the solid angle of all, of which they need not have one half each; the place is
+    /// that of all, for halves lie a little aside.
     fn error(&self, place: DVec2) -> f64 {
         let all: f64 = self.quarters.iter().map(|quarter| quarter.solid_angle).sum();
         let by = |halves: [[usize; 2]; 2], scaled: bool| {
@@ -124,8 +125,8 @@ impl Group {
 }
 
 impl Sources {
-    /// Finds the glare sources among patches of given luminances and discs. `threshold`: luminance above which light is
-    /// a glare source. \[cd/m²\]
+    /// Finds the glare sources among patches of given luminances and discs. `luminance`: of every patch of `field`,
+    /// towards the eye; `threshold`: above it a patch or disc is a glare source. \[cd/m²\]
     pub fn new(field: &Field, luminance: &[f64], discs: &[Disc], threshold: f64) -> Self {
         let count = field.patches.len();
         let bright = linked(field, luminance, discs, threshold);
@@ -171,7 +172,7 @@ impl Sources {
     }
 }
 
-/// Disjoint sets that can be joined.
+/// Disjoint sets of indices that can be joined (union–find); each entry points towards the root of its set.
 struct Links(Vec<usize>);
 
 impl Links {
@@ -189,12 +190,13 @@ impl Links {
     }
 }
 
-/// Returns the radius of a disc of a solid angle. \[rad\]
+/// Returns the angular radius of a small disc of the given solid angle \[sr\]. \[rad\]
 fn radius(solid_angle: f64) -> f64 {
     (solid_angle / std::f64::consts::PI).sqrt()
 }
 
-/// Returns the group number of every patch, then of every disc; `None` for those that are not brighter than `least`.
+/// Returns the number of the group that each patch belongs to, then the same for each disc; `None` for those whose
+/// luminance is not above `least` \[cd/m²\]. Neighbours, and parts within [`REACH`] of each other, form one group.
 fn linked(field: &Field, luminance: &[f64], discs: &[Disc], least: f64) -> Vec<Option<usize>> {
     let count = field.patches.len();
     let bright = |at: usize| luminance[at] > least;

@@ -1,11 +1,13 @@
-//! The report's filter for diffuse light (eq 13), corrected: every indicatrix spread over the patch that its direction
-//! stands for, so that the sum over patches becomes smooth.
+//! Filter for diffuse light by eq 13 of the IEA SHC Task 31 report (2005), corrected: every indicatrix (q over the
+//! emergent directions for one incident direction) is spread over the solid angle of the patch that its incident
+//! direction represents, so that the sum over patches becomes smooth.
 //!
-//! Three corrections. The kernel is normalised by flux for every part of every indicatrix, so that τ stays what it was
-//! (eq 13's unit is q·sr; dividing by the solid angle shifts τ by up to 2 %). It has the shape of the patch itself,
-//! shifted in direction cosines as plane layers do it, and turned or mirrored as the lobe moves: patches tile, round
-//! kernels leave gaps and overlaps whatever their width. And it may leave the base alone: what is wide already needs no
-//! filter. The round kernels of the report's Figure 8 and light without filter are there for comparison.
+//! Three corrections. The kernel is normalised by flux for every lobe and base of every indicatrix, so that τ is
+//! unchanged (eq 13's unit is q·sr; dividing by the solid angle shifts τ by up to 2 %). It has the shape of the patch
+//! itself, shifted in direction cosines like light through plane layers, and rotated or mirrored according to the
+//! lobe's response: patches tile, round kernels leave gaps and overlaps whatever their width. And it may be applied to
+//! the lobes alone: the smooth base is wide enough without a filter. The round kernels of the report's Figure 8 and
+//! light without filter are there for comparison.
 
 use super::grid::Grid;
 use super::model::Model;
@@ -14,40 +16,42 @@ use glam::{DMat2, DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Kernel that spreads the light of an indicatrix.
+/// Kernel of the filter for diffuse light: the angular region over which the light of an indicatrix is spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kernel {
-    /// No spreading.
+    /// No filter: light stays in the directions of the data.
     None,
-    /// Constant luminance within this angle. \[rad\]
+    /// Circular cone of constant luminance with this half-angle. \[rad\]
     Cone(f64),
-    /// The cell of the incident lattice that a direction stands for.
+    /// Shape of the patch of the incident hemisphere that the indicatrix's incident direction represents.
     Patch,
 }
 
 impl Kernel {
-    /// Kernel of the report's Figure 8, half as wide as patches: 6° across.
+    /// Circular kernel of 6° diameter, half as wide as Tregenza's patches (IEA SHC Task 31 report, Figure 8).
     pub const NARROW: Self = Self::Cone(3.0 * PI / 180.0);
-    /// Kernel of the report's Figure 8, as wide as patches: 12° across.
+    /// Circular kernel of 12° diameter, as wide as Tregenza's patches (IEA SHC Task 31 report, Figure 8).
     pub const MATCHED: Self = Self::Cone(6.0 * PI / 180.0);
-    /// Kernel of the report's Figure 8, twice as wide as patches: 24° across.
+    /// Circular kernel of 24° diameter, twice as wide as Tregenza's patches (IEA SHC Task 31 report, Figure 8).
     pub const WIDE: Self = Self::Cone(12.0 * PI / 180.0);
 }
 
-/// Kernel and the part of an indicatrix that it is used on.
+/// Filter for diffuse light: a kernel, and whether it spreads whole indicatrices or their lobes alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Filter {
-    /// Kernel of the filter.
+    /// Angular region over which the filter spreads light.
     pub kernel: Kernel,
-    /// Whether lobes alone are filtered, which is better; otherwise the whole indicatrix, as in the report.
+    /// Whether only the lobes of an indicatrix are filtered, which is more accurate; otherwise the whole indicatrix, by
+    /// eq 13 of the IEA SHC Task 31 report.
     pub sharp_only: bool,
 }
 
-/// Computes the luminance on the cells of `target` from the illuminance \[lx\] through the patches of the data's
-/// lattice. \[cd/m²\] `None` if the data's directions are not a lattice of patches.
+/// Computes the luminance of the room side on the emergent cells of `target`, from the filtered indicatrices. \[cd/m²\]
+/// `illuminance`: illuminance of the aperture from each patch of the outer hemisphere \[lx\], in the order of the
+/// incident directions. `None` if the incident directions of the data do not represent patches of a hemisphere.
 pub fn diffuse(model: &Model, filter: Filter, target: &Grid, illuminance: &[f64]) -> Option<Vec<f64>> {
     let spreader = Spreader::new(model, filter, target)?;
-    // In fixed portions, added in order: the same bits for any number of threads.
+    // In fixed portions, added in order: the result is identical for any number of threads.
     let parts: Vec<Vec<f64>> = (0..illuminance.len().min(model.lattice.points().len()))
         .collect::<Vec<usize>>()
         .par_chunks(8)
@@ -66,25 +70,27 @@ pub fn diffuse(model: &Model, filter: Filter, target: &Grid, illuminance: &[f64]
     Some(luminance)
 }
 
-/// Filter of the indicatrices of one model onto one set of cells.
+/// Computation of the filtered indicatrices of one model on one set of emergent cells.
 pub struct Spreader<'a> {
     model: &'a Model,
     filter: Filter,
     target: &'a Grid,
     patches: &'a RingBasis,
-    /// Resampling from the data's cells to the target's.
+    /// Resampling from the emergent cells of the data to those of `target`.
     resampling: Resampling,
 }
 
 impl<'a> Spreader<'a> {
-    /// Creates the filter; `None` if the data's directions are not a lattice of patches.
+    /// Creates the computation for the emergent cells of `target`; `None` if the incident directions of the data do not
+    /// represent patches of a hemisphere.
     pub fn new(model: &'a Model, filter: Filter, target: &'a Grid) -> Option<Self> {
         let patches = model.data.lattice()?;
         let resampling = Resampling::new(model.grid.basis(), target.basis());
         Some(Self { model, filter, target, patches, resampling })
     }
 
-    /// Returns the filtered indicatrix of one direction; its flux is τ. \[1/sr\]
+    /// Returns q of the filtered indicatrix of one incident direction (by index) on the cells of the target; its flux
+    /// is τ of the data. \[1/sr\]
     pub fn indicatrix(&self, incident: usize) -> Vec<f64> {
         let model = self.model;
         let mut sum = vec![0.0; self.target.centre.len()];
@@ -117,7 +123,8 @@ impl<'a> Spreader<'a> {
         sum
     }
 
-    /// Gives a picture exactly its flux; one that fell off the hemisphere lands at its rim.
+    /// Scales the values `q` of a lobe or base so that their flux is exactly `flux`. Light that lies outside the
+    /// hemisphere altogether is assigned to the cell nearest to `place`.
     fn normalise(&self, q: &mut [f64], flux: f64, place: DVec3) {
         let own: f64 = q.iter().zip(&self.target.projected).map(|(q, w)| q.max(0.0) * w).sum();
         if own > 0.0 {
@@ -130,8 +137,8 @@ impl<'a> Spreader<'a> {
         }
     }
 
-    /// Spreads points of light by a kernel, as cell means. Few points make sharp edges, which need more directions per
-    /// cell.
+    /// Returns the cell means of light that a kernel spreads round points of given flux. Few points make sharp edges,
+    /// which need more directions per cell.
     fn spread(&self, kernel: Kernel, patch: &Cell, points: &[(DVec3, f64)], turn: DMat2) -> Vec<f64> {
         let directions = match points.len() {
             0..=60 => 3,
@@ -144,7 +151,7 @@ impl<'a> Spreader<'a> {
         let reach = footprint.reach + points.iter().map(|(p, _)| footprint.distance(*p, centre)).fold(0.0, f64::max);
         let mut out = vec![0.0; self.target.centre.len()];
         for (cell, q) in out.iter_mut().enumerate() {
-            // A cell's own size is within the slack: edges beyond it change no mean.
+            // The slack covers the size of the cell: a footprint farther away does not touch it.
             if footprint.distance(self.target.centre[cell], centre) > reach + 2.0 * self.target.solid[cell].sqrt() {
                 continue;
             }
@@ -155,7 +162,7 @@ impl<'a> Spreader<'a> {
         out
     }
 
-    /// Returns a base moved over the kernel and averaged.
+    /// Returns the mean of copies of a base that are shifted over the kernel.
     fn smoothed(&self, kernel: Kernel, patch: &Cell, base: &[f64]) -> Vec<f64> {
         let grid = &self.model.grid;
         let offsets = offsets(kernel, patch);
@@ -193,13 +200,14 @@ fn turn_of(response: DMat2) -> DMat2 {
     }
 }
 
-/// Kernel about a point of light: the region where it is not zero.
+/// Region in which a kernel about a point of light is not zero.
 struct Footprint {
     kernel: Kernel,
     cos_reach: f64,
-    /// Largest distance that the kernel spreads: as a chord when round, in direction cosines as a patch.
+    /// Largest distance over which the kernel spreads light: a chord of the unit sphere for [`Kernel::Cone`], a
+    /// difference of direction cosines for [`Kernel::Patch`].
     reach: f64,
-    /// Direction of the patch, as direction cosines.
+    /// Direction cosines x and y of the patch's centre.
     own: DVec2,
     /// Limits of the patch in sin²θ.
     limits: [f64; 2],
@@ -225,7 +233,8 @@ impl Footprint {
         Self { kernel, cos_reach, reach, own, limits, axis: DVec2::from_angle(patch.phi), half }
     }
 
-    /// Returns the distance in the measure of `reach`.
+    /// Returns the distance of two directions in the unit of `reach`: chord for a cone, difference of direction cosines
+    /// for a patch.
     fn distance(&self, a: DVec3, b: DVec3) -> f64 {
         match self.kernel {
             Kernel::Patch => (a - b).truncate().length(),
@@ -233,7 +242,7 @@ impl Footprint {
         }
     }
 
-    /// Returns the weight in direction `d` of light at `p`.
+    /// Returns the weight of the kernel about `p` in direction `d`: 1 inside, 0 outside.
     #[inline]
     fn at(&self, d: DVec3, p: DVec3, back: DMat2) -> f64 {
         match self.kernel {
@@ -249,13 +258,13 @@ impl Footprint {
     }
 }
 
-/// A step of the kernel.
+/// Displacement of a base within the kernel.
 enum Offset {
     Cosines(DVec2),
     Angle(DVec2),
 }
 
-/// Returns 16 steps of equal weight that represent a kernel where the picture is smooth.
+/// Returns 16 displacements of equal weight that represent a kernel for smooth values.
 fn offsets(kernel: Kernel, patch: &Cell) -> Vec<Offset> {
     let pairs = (0..16).map(|k| ((f64::from(k / 4) + 0.5) / 4.0, (f64::from(k % 4) + 0.5) / 4.0));
     let own = patch.centre().vector().truncate();

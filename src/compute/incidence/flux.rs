@@ -1,31 +1,35 @@
-//! A scalar over the incident directions - the flux of a lobe, of a base - between them: linear, bent where its
-//! neighbours say so, and with a kink where slopes from both sides meet inside an edge.
+//! Interpolation of a scalar (the flux of a lobe or of a base) between incident directions: linear, with a curvature
+//! from the slopes at the neighbours, and with a kink where slopes from both sides meet inside an edge.
 //!
 //! On an edge from a to b a cubic with given slopes differs from the straight line by −t(1 − t)·(A(1 − t) + Bt), where
 //! A and B are what the slope at either end leaves unexplained at the other. A blind's direct share or a panel's
 //! deflected share has kinks instead, which a 12° lattice does not resolve: there the slopes on both sides are followed
-//! into the edge until they meet (subcell resolution, Harten 1989). Over a triangle the three edges' bumps add up, each
-//! as a form of second degree in the weights, so that the whole is continuous across edges.
+//! into the edge until they meet (subcell resolution, Harten 1989). Over a triangle the terms of the three edges add
+//! up, each homogeneous of second degree in the barycentric weights, so that the interpolated scalar is continuous
+//! across edges.
 
 use super::lattice::{Lattice, tangent_step};
 use super::response::gradient;
 use glam::DVec2;
 
-/// Cosine between two steps up to which they count as opposite: within 37°. As with the limits of [`bump`],
-/// `tests/compute/incidence_schemes` prints what is misplaced with it; no table of other values is kept.
+/// Cosine between two steps below which they count as opposite: within 37° of a straight line. Chosen, like the limits
+/// of [`bump`]: `tests/compute/incidence_schemes` prints the share of flux misplaced with it; no table of other values
+/// is kept.
 const BEHIND: f64 = -0.8;
 
-/// Term that an edge adds to linear interpolation.
+/// Term that an edge of the triangulated incident directions adds to the linear interpolation of a flux along it, with
+/// t = 0 … 1 from its first to its second end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bump {
-    /// Cubic term −t(1 − t)·(`[0]`(1 − t) + `[1]`t).
+    /// Cubic term −t(1 − t)·(`[0]`(1 − t) + `[1]`t), in the unit of the flux.
     Cubic([f64; 2]),
-    /// Kink that follows `[0]`·t from the first end and `[1]`·(1 − t) from the second, whichever is nearer to the line.
+    /// Kink: `[0]`·t from the first end or `[1]`·(1 − t) from the second, whichever has the smaller magnitude.
     Tent([f64; 2]),
 }
 
 impl Bump {
-    /// Returns the term over a triangle, for the weights of the edge's two ends.
+    /// Returns the term's contribution inside a triangle, for the barycentric weights `wa` and `wb` of the edge's two
+    /// ends.
     pub fn at(self, wa: f64, wb: f64) -> f64 {
         match self {
             Self::Cubic([a, b]) => {
@@ -40,28 +44,32 @@ impl Bump {
     }
 }
 
-/// Scalar at the incident directions, following one lobe from each to its neighbours where it exists.
+/// Scalar at the incident directions that is followed lobe by lobe, such as the flux of a lobe: its value, and the
+/// corresponding lobe at neighbouring directions.
 pub trait Field {
-    /// Returns the value for a lobe of a vertex.
+    /// Returns the scalar for a lobe of an incident direction, both by index.
     fn value(&self, vertex: usize, lobe: usize) -> f64;
-    /// Returns the lobe at a neighbour (given by its place in the lattice's list) that continues `lobe`, if it is
-    /// there.
+    /// Returns the index of the lobe that corresponds to `lobe` at a neighbouring incident direction; `None` if it has
+    /// none. `neighbour` is the index in the list of the vertex's neighbours.
     fn partner(&self, vertex: usize, lobe: usize, neighbour: usize) -> Option<usize>;
-    /// Returns the value at θ = 90° beyond a vertex of the border.
+    /// Returns the scalar extrapolated to θ = 90° from an incident direction on the border of the data; `None` at other
+    /// directions.
     fn at_grazing(&self, vertex: usize, lobe: usize) -> Option<f64>;
 }
 
-/// Slopes of a field at one lobe of one vertex towards each neighbour.
+/// Changes of a scalar that its slope at one incident direction predicts for the step to each neighbouring direction.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Slopes {
-    /// Gradient over all neighbours times the step; `None` where neighbours are on one side only.
+    /// Change predicted by the gradient over all neighbours, per neighbour; `None` where neighbours lie on one side
+    /// only.
     pub centred: Vec<Option<f64>>,
-    /// Gradient over the neighbours that lie away from the one it points to, times the step; `None` where none lies
-    /// opposite.
+    /// Change predicted by the gradient over the neighbours on the other side of the direction, per neighbour; `None`
+    /// where no neighbour lies opposite.
     pub one_sided: Vec<Option<f64>>,
 }
 
-/// Computes the slopes towards every neighbour.
+/// Computes the changes that the slopes of `field` at one lobe of one incident direction predict towards every
+/// neighbour.
 pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Slopes {
     let here = lattice.points()[vertex];
     let neighbours = lattice.neighbours(vertex);
@@ -93,9 +101,9 @@ pub fn slopes(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize)
     Slopes { centred: steps.iter().map(|step| centre.map(|g| g.dot(*step))).collect(), one_sided }
 }
 
-/// Returns the term of the edge from `a` (towards its neighbour number `ab`) to `b` (towards its neighbour number
-/// `ba`). `behind`: what the slope one edge further back misses at each end; smooth functions miss as much there as
-/// here.
+/// Returns the term that the edge between two incident directions adds to linear interpolation. `values`: the scalar at
+/// its ends; `towards`: the slopes at each end with the index of the other end among its neighbours; `behind`: error at
+/// each end of the slope one edge further back, which is as large there as on this edge if the scalar is smooth.
 pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f64>; 2]) -> Bump {
     let difference = values[1] - values[0];
     let [(a, ab), (b, ba)] = towards;
@@ -116,13 +124,14 @@ pub fn bump(values: [f64; 2], towards: [(&Slopes, usize); 2], behind: [Option<f6
             let least = 2.5 * p.abs().min(q.abs());
             [p.clamp(-least, least), q.clamp(-least, least)].map(|c| c.clamp(-limit, limit))
         }
-        // One end open: the other's word, within reason.
+        // Curvature is known at one end only: the same is assumed at the other, within limits.
         (Some(p), None) | (None, Some(p)) => [p.clamp(-0.5 * limit, 0.5 * limit); 2],
         _ => [0.0; 2],
     })
 }
 
-/// Returns the error at a vertex of the slope behind it, followed from the neighbour that lies most exactly behind it.
+/// Returns the difference between the scalar at an incident direction and its extrapolation from the neighbour that
+/// lies opposite to the neighbour `ahead`; `None` if no neighbour lies opposite or has the lobe.
 pub fn missed_behind(
     lattice: &Lattice,
     field: &impl Field,
@@ -154,7 +163,8 @@ fn surrounded(samples: &[(DVec2, f64)]) -> bool {
     angles.len() >= 4 && (0..angles.len()).all(|k| gap(k) < 0.75 * std::f64::consts::PI)
 }
 
-/// Returns the gradient along the only direction of the samples.
+/// Returns the gradient for samples that all lie along one line. `samples`: step from the vertex in the tangent plane
+/// \[rad\] and change of the scalar over it.
 pub fn along_one_line(samples: &[(DVec2, f64)]) -> Option<DVec2> {
     let weight: f64 = samples.iter().map(|(step, _)| step.length_squared()).sum();
     (weight > 0.0).then(|| samples.iter().map(|&(step, change)| step * change).sum::<DVec2>() / weight)

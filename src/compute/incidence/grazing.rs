@@ -1,30 +1,32 @@
-//! Transmittance beyond the most grazing row of incident directions.
+//! Extrapolation of the transmittance τ from the largest incidence angle θ of the data to grazing incidence.
 
 use super::lattice::Lattice;
 use std::f64::consts::FRAC_PI_2;
 
-/// Continuation of τ from a direction on the border to θ = 90°. What falls steeply towards the border goes to zero, as
-/// Fresnel's equations have it for everything behind a smooth surface; what is constant there continues (open slats).
+/// Extrapolation of the transmittance τ from an incident direction on the border of the data (their largest θ) to θ =
+/// 90°. A τ that falls steeply towards the border goes to zero, according to Fresnel's equations for everything behind
+/// a smooth surface; a constant τ continues (open slats).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grazing {
-    /// Slope of τ at the border, in units of the border's τ and of the angle from there to 90°.
+    /// Slope of τ over θ at the border of the data, relative to τ there and to the angle from there to 90°.
     slope: f64,
-    /// Bend of the parabola that falls to zero at 90°, in the units of `slope`.
+    /// Curvature of the parabola that falls to zero at 90°, in the units of `slope`.
     bend: f64,
-    /// Weight of the straight continuation: 0 fades to zero, 1 follows the slope.
+    /// Weight of the linear extrapolation, 0 … 1: 0 fades to zero, 1 follows the slope.
     straight: f64,
 }
 
-/// τ at 90°, extrapolated in a straight line, as a share of the border's, below which it fades to zero. Chosen between
-/// a smooth surface and open slats: 1 − (1 − cosθ)⁵ with rows at 72° and 84° extrapolates to 0.51, a constant to 1.
+/// Linearly extrapolated τ at θ = 90°, relative to τ at the border of the data, below which τ fades to zero. Chosen
+/// between a smooth surface and open slats: 1 − (1 − cosθ)⁵ with rows at 72° and 84° extrapolates to 0.51, a constant
+/// to 1.
 const FADES_BELOW: f64 = 0.65;
-/// τ at 90°, extrapolated in a straight line, as a share of the border's, above which it follows that line. Chosen in
-/// the same way as [`FADES_BELOW`]; `examples/incidence_errors` prints the errors beyond the last row.
+/// Linearly extrapolated τ at θ = 90°, relative to τ at the border of the data, above which τ follows that line. Chosen
+/// in the same way as [`FADES_BELOW`]; `examples/incidence_errors` prints the errors beyond the last row.
 const CONTINUES_ABOVE: f64 = 0.8;
 
 impl Grazing {
-    /// Creates the continuation at a vertex of the border; `None` elsewhere, and where nothing gets through or no row
-    /// lies further in.
+    /// Creates the extrapolation at an incident direction on the border of the data. `tau`: transmittance by incident
+    /// direction. `None` if the direction is not on the border, if its τ is 0, or if no neighbour has a smaller θ.
     pub fn new(lattice: &Lattice, tau: &[f64], vertex: usize) -> Option<Self> {
         let theta = |v: usize| lattice.points()[v].z.clamp(-1.0, 1.0).acos();
         let own = theta(vertex);
@@ -46,7 +48,8 @@ impl Grazing {
         Some(Self { slope, bend, straight: s * s * (3.0 - 2.0 * s) })
     }
 
-    /// Returns τ over the border's, `beyond` from 0 (the border) to 1 (θ = 90°).
+    /// Returns τ relative to τ at the border of the data (their largest θ). `beyond`: position between the border (0)
+    /// and θ = 90° (1), linear in θ.
     pub fn factor(self, beyond: f64) -> f64 {
         let on = (1.0 + self.slope * beyond).max(0.0);
         let fading = (1.0 - beyond + self.bend * beyond * (beyond - 1.0)).max(0.0);

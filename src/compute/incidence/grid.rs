@@ -1,4 +1,5 @@
-//! Ring basis as a picture: neighbours of cells, smoothing over tens of degrees, values between cell centres.
+//! Cells of a ring basis for the analysis of indicatrices: neighbours of cells, smoothing over tens of degrees, values
+//! between cell centres.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
@@ -15,14 +16,14 @@ pub struct Grid {
     pub solid: Vec<f64>,
     /// Projected solid angle ∫cosθ dω of every cell. \[sr\]
     pub projected: Vec<f64>,
-    /// Direction that represents every cell.
+    /// Unit vector to the centre of every cell, façade frame.
     pub centre: Vec<DVec3>,
-    /// Cells that touch each cell.
+    /// Indices of the cells that touch each cell.
     pub neighbours: Vec<Vec<u32>>,
 }
 
 impl Grid {
-    /// Creates the grid of a basis.
+    /// Creates the neighbours, weights and centres of the cells of a basis.
     pub fn new(basis: &RingBasis) -> Self {
         let mut order: Vec<usize> = (0..basis.rings().len()).collect();
         order.sort_by(|&a, &b| basis.rings()[a].theta_min.total_cmp(&basis.rings()[b].theta_min));
@@ -38,11 +39,12 @@ impl Grid {
         grid
     }
 
-    /// Returns the cells.
+    /// Returns the basis whose cells the grid describes.
     pub fn basis(&self) -> &RingBasis {
         &self.basis
     }
 
+    /// Returns the indices of the cells that touch each cell, ascending.
     fn touching(&self) -> Vec<Vec<u32>> {
         let mut list: Vec<Vec<u32>> = vec![Vec::new(); self.basis.len()];
         for (place, &ring) in self.order.iter().enumerate() {
@@ -78,7 +80,8 @@ impl Grid {
         list
     }
 
-    /// Returns the mean of every cell with the cells around it, the own value counting half.
+    /// Returns values on the cells smoothed once: half of each cell's value plus half of the mean over the cells that
+    /// touch it.
     pub fn blurred(&self, values: &[f64]) -> Vec<f64> {
         let mean = |i: usize| {
             let around = &self.neighbours[i];
@@ -90,15 +93,15 @@ impl Grid {
         (0..values.len()).map(mean).collect()
     }
 
-    /// Returns the ring that holds a polar angle, by its place from the normal outwards.
+    /// Returns the position in `order` of the ring that holds a polar angle \[rad\].
     fn ring_place(&self, theta: f64) -> usize {
         let rings = self.basis.rings();
         self.order.partition_point(|&ring| rings[ring].theta_max <= theta).min(self.order.len() - 1)
     }
 
-    /// Returns the four cells around a direction as (own ring, sector, sectors of the ring, weight), weights of sum 1:
-    /// linear in θ between the middles of two rings, and in φ along each. Directions beyond the middles of the
-    /// outermost rings take these rings' values.
+    /// Returns the four cells around a direction for bilinear interpolation, each as (index of the ring, index of the
+    /// sector, number of sectors of the ring, weight); the weights add up to 1. Linear in θ between the middles of two
+    /// rings, and in φ along each. Directions beyond the middles of the outermost rings take these rings' values.
     pub fn around_rings(&self, d: DVec3) -> [(usize, usize, usize, f64); 4] {
         let theta = d.truncate().length().atan2(d.z).min(FRAC_PI_2);
         let own = self.basis.azimuth().own_phi(d.y.atan2(d.x));
@@ -124,7 +127,8 @@ impl Grid {
         [(a, a0, na, (1.0 - t) * (1.0 - s)), (a, a1, na, (1.0 - t) * s), (b, b0, nb, t * (1.0 - u)), (b, b1, nb, t * u)]
     }
 
-    /// Returns the mean of a function over a cell by projected solid angle, from `points`² directions.
+    /// Returns the mean of a function of the direction over a cell, weighted by projected solid angle, from `points`²
+    /// directions.
     pub fn cell_mean(&self, cell: usize, points: usize, f: impl Fn(DVec3) -> f64) -> f64 {
         if points <= 1 {
             return f(self.centre[cell]);
@@ -143,8 +147,8 @@ impl Grid {
         sum / (points * points) as f64
     }
 
-    /// Calls `visit` for every cell whose centre lies within `radius` of a direction, and the nearest others of the
-    /// rings it crosses.
+    /// Calls `visit` with the index of every cell whose centre lies within `radius` \[rad\] of a direction, and of some
+    /// neighbours in the same rings.
     pub fn within(&self, centre: DVec3, radius: f64, mut visit: impl FnMut(usize)) {
         let (theta, phi) = (centre.truncate().length().atan2(centre.z), centre.y.atan2(centre.x));
         let rings = self.basis.rings();
@@ -177,7 +181,8 @@ impl Grid {
     }
 }
 
-/// Fixed weights that smooth a picture over tens of degrees, by way of coarse cells.
+/// Greyscale opening of values on cells (local minimum, then smoothing over tens of degrees), computed on coarse cells;
+/// it removes narrow peaks.
 #[derive(Debug, Clone)]
 pub struct Opening {
     coarse_of: Vec<u32>,
@@ -188,8 +193,8 @@ pub struct Opening {
 }
 
 impl Opening {
-    /// Creates an opening that takes the lowest value within ±`reach`, then a Gaussian of standard deviation `sigma`.
-    /// \[rad\]
+    /// Creates an opening that takes the lowest value within an angle of `reach` and smooths it by a Gaussian of
+    /// standard deviation `sigma`. \[rad\]
     pub fn new(grid: &Grid, reach: f64, sigma: f64) -> Self {
         let coarse = RingBasis::equal_area(11);
         let centre: Vec<DVec3> = coarse.cells().map(|cell| cell.centre().vector()).collect();
@@ -216,7 +221,8 @@ impl Opening {
         Self { coarse_of: grid.centre.iter().map(|&d| nearest(d)).collect(), near, spread, coarse: coarse.len() }
     }
 
-    /// Returns the grey opening of a picture, nowhere above it.
+    /// Returns the greyscale opening of values on the cells of the grid: the values without narrow peaks, nowhere above
+    /// the values themselves.
     pub fn of(&self, values: &[f64]) -> Vec<f64> {
         let mut lowest = vec![f64::INFINITY; self.coarse];
         for (value, &k) in values.iter().zip(&self.coarse_of) {

@@ -1,14 +1,15 @@
-//! Difference of two indicatrices by the flux that lies elsewhere, on cells of 7.5°, lightly blurred on both sides, so
-//! that a lobe off by a fraction of its width counts in part.
+//! Difference of two indicatrices as the share of flux in wrong directions, on cells of 7.5°, both slightly smoothed,
+//! so that a lobe displaced by a fraction of its width counts in part.
 
 use super::grid::Grid;
 use super::superpose::sub_patches;
 
-/// Size of the cells on which flux is compared. \[°\] Chosen: defines the figure, which other sizes would change;
-/// `tests/compute/incidence_schemes` compares with the truth on cells of this size.
+/// Angular size of the cells on which the fluxes of two indicatrices are compared. \[°\] Chosen: defines the figure,
+/// which other sizes would change; `tests/compute/incidence_schemes` compares with the exact indicatrix on cells of
+/// this size.
 const CELLS: f64 = 7.5;
 
-/// Comparison of indicatrices that are given on the same cells.
+/// Comparison of indicatrices on the same emergent cells by the share of flux in wrong directions.
 #[derive(Debug, Clone)]
 pub struct Judge {
     compare: Grid,
@@ -17,7 +18,7 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// Creates the comparison for indicatrices on these cells.
+    /// Creates the comparison for indicatrices on the emergent cells `cells`.
     pub fn new(cells: &Grid) -> Self {
         let compare = Grid::new(&sub_patches(CELLS.to_radians()));
         let first = |ring| compare.basis().first_cell(ring);
@@ -36,7 +37,8 @@ impl Judge {
         self.compare.blurred(&mean)
     }
 
-    /// Returns ½∫|q − q₀|cosθ dω / τ₀ for the true indicatrix q₀; `None` where it lets nothing through.
+    /// Returns the share of flux that the indicatrix `q` has in wrong directions: ½∫|q − q₀|cosθ dω / τ₀ with the true
+    /// indicatrix q₀ = `truth`, both \[1/sr\] on the cells of the comparison, smoothed; `None` if τ₀ = 0.
     pub fn misplaced(&self, q: &[f64], truth: &[f64]) -> Option<f64> {
         let (q, truth) = (self.picture(q), self.picture(truth));
         let weights = &self.compare.projected;

@@ -1,42 +1,45 @@
-//! Triangles between incident directions, and the place of a direction in them.
+//! Triangulation of the incident directions of data, and the barycentric weights of any direction in it.
 //!
-//! Planar Delaunay triangulation of the stereographic projection, which is the spherical one: 258 triangles for the
-//! 145 directions of Tregenza's lattice. Four directions of two rows with equal counts lie on a circle; the tie is
-//! broken by an imagined turn of each row, antisymmetric about both axes, so that the triangles keep the symmetry of
-//! the lattice.
+//! Planar Delaunay triangulation of the stereographic projection, which is the spherical one: 258 triangles for the 145
+//! directions of Tregenza's lattice. Four directions of two rows with equal counts lie on a circle; the tie is broken
+//! by a tiny rotation of each row, antisymmetric about both axes, so that the triangles have the symmetry of the
+//! lattice.
 
 use crate::compute::direction::{Dir, Facade, Incident};
 use glam::{DMat3, DVec2, DVec3};
 use spade::{DelaunayTriangulation, HasPosition, Point2, Triangulation as _};
 
-/// Imagined turn that decides ties. \[rad\] Far above the rounding of f64, 2⁻⁵² ≈ 2.2e-16 per operation, and far below
-/// any distance between directions: only triangles that are tied change.
+/// Rotation of a row of directions that decides ties of the triangulation. \[rad\] Far above the rounding of f64, 2⁻⁵²
+/// ≈ 2.2e-16 per operation, and far below any distance between directions: only triangles that are tied change.
 const TIE: f64 = 1e-7;
 
-/// Incident directions and the triangles between them.
+/// Incident directions of data, as unit vectors in the façade frame, and the spherical triangles between them.
 #[derive(Debug, Clone)]
 pub struct Lattice {
     points: Vec<DVec3>,
     triangles: Vec<[usize; 3]>,
-    /// Edges on the border.
+    /// Edges of the triangulation's border, by the indices of their two directions.
     border: Vec<[usize; 2]>,
     /// Neighbours of each vertex, in rising order.
     neighbours: Vec<Vec<usize>>,
     on_border: Vec<bool>,
-    /// Direction that is left out of the triangles.
+    /// Index of the direction that is left out of the triangulation.
     left_out: Option<usize>,
 }
 
-/// Place of a direction between at most three incident directions.
+/// Position of a direction between at most three incident directions of data: barycentric weights in a triangle, or on
+/// the border if the direction lies outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Place {
-    /// Number of the triangle; `None` beyond the border.
+    /// Index of the triangle that holds the direction; `None` outside the border of the triangulation.
     pub triangle: Option<usize>,
-    /// Vertices of the triangle; the same one may appear twice, with weight 0.
+    /// Indices of the incident directions at the triangle's vertices; on the border one may appear twice, the second
+    /// time with weight 0.
     pub vertices: [usize; 3],
-    /// Weights of the vertices, not negative, sum 1.
+    /// Barycentric weights of the vertices, not negative, of sum 1.
     pub weights: [f64; 3],
-    /// Distance of the direction beyond the border towards grazing: 0 on it, 1 at θ = 90°.
+    /// Position of the direction between the border of the triangulation and grazing incidence: 0 on the border or
+    /// inside, 1 at θ = 90°, linear in θ.
     pub beyond: f64,
 }
 
@@ -53,12 +56,14 @@ impl HasPosition for Node {
 }
 
 impl Lattice {
-    /// Triangulates incident directions. Fewer than three, or all on one circle through the pole, have no triangles.
+    /// Creates the triangulation of incident directions. Fewer than three, or all on one circle through the pole, have
+    /// no triangles.
     pub fn new(incident: &[Incident]) -> Self {
         Self::without(incident, None)
     }
 
-    /// Triangulates as if the direction `left_out` were not there; it keeps its number, without neighbours.
+    /// Creates the triangulation without the direction of index `left_out`; that direction keeps its index, but has no
+    /// neighbours.
     pub fn without(incident: &[Incident], left_out: Option<usize>) -> Self {
         let points: Vec<DVec3> = incident.iter().map(|d| d.0.vector()).collect();
         let mut delaunay: DelaunayTriangulation<Node> = DelaunayTriangulation::new();
@@ -97,28 +102,29 @@ impl Lattice {
         Self { points, triangles, border, neighbours, on_border, left_out }
     }
 
-    /// Returns the directions as unit vectors, façade frame.
+    /// Returns the incident directions as unit vectors, façade frame (z outward normal).
     pub fn points(&self) -> &[DVec3] {
         &self.points
     }
 
-    /// Returns the vertices of all triangles.
+    /// Returns the triangles, each by the indices of the three incident directions at its vertices.
     pub fn triangles(&self) -> &[[usize; 3]] {
         &self.triangles
     }
 
-    /// Returns the directions joined to one by an edge, in rising order.
+    /// Returns the indices of the incident directions that an edge joins to the direction `vertex`, in rising order.
     pub fn neighbours(&self, vertex: usize) -> &[usize] {
         &self.neighbours[vertex]
     }
 
-    /// Whether a direction lies on the border, with nothing measured beyond it.
+    /// Whether the incident direction `vertex` lies on the border of the triangulation, with no data beyond it.
     pub fn is_on_border(&self, vertex: usize) -> bool {
         self.on_border[vertex]
     }
 
-    /// Returns the place of a direction. Great-circle barycentric weights; beyond the border those of the nearest place
-    /// on it, so that weights are continuous everywhere.
+    /// Returns the position of a direction in the triangulation: spherical barycentric weights of up to three incident
+    /// directions. Outside the border they are those of the nearest point on it, so that weights are continuous
+    /// everywhere.
     pub fn locate(&self, direction: Dir<Facade>) -> Place {
         let d = direction.vector();
         for (number, &[a, b, c]) in self.triangles.iter().enumerate() {
@@ -132,7 +138,7 @@ impl Lattice {
         self.beyond(d)
     }
 
-    /// Returns the place on the border nearest to a direction outside it.
+    /// Returns the position of the point on the border nearest to a direction outside it.
     fn beyond(&self, d: DVec3) -> Place {
         let nearest = |best: Option<(f64, Place)>, (cosine, place): (f64, Place)| match best {
             Some((other, _)) if other >= cosine => best,
@@ -166,8 +172,8 @@ impl Lattice {
     }
 }
 
-/// Returns the step from one direction to another in the plane that touches the sphere at the first, in a frame of its
-/// own: length the angle. \[rad\]
+/// Returns the step from one direction to another as a vector in the tangent plane of the unit sphere at `from`; its
+/// length is the angle between them \[rad\], its axes are arbitrary but fixed by `from`.
 pub fn tangent_step(from: DVec3, to: DVec3) -> DVec2 {
     let (x, y) = from.any_orthonormal_pair();
     let flat = DVec2::new(to.dot(x), to.dot(y));

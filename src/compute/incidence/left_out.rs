@@ -1,10 +1,12 @@
-//! Accuracy of interpolation between the directions, found by leaving out: every direction is predicted from those
-//! around it without it, with responses and fluxes fitted again, and compared with what was measured there. The report
-//! left the choice between its schemes open (§3.2).
+//! Accuracy of interpolation between the incident directions of data, by cross-validation: the indicatrix of every
+//! direction is predicted from those around it, without its own data and with responses and fluxes fitted again, and
+//! compared with its data. The IEA SHC Task 31 report left the choice between its schemes open (§3.2).
 //!
-//! Predicting across a gap doubles the spacing; at the true spacing a scheme of second order is expected to misplace a
-//! quarter as much, one of first order (nearest) half. It takes seconds, and no result depends on it. Where another
-//! scheme predicts a direction better than responses, it is named: one wide lobe alone is moved as well in one piece.
+//! *Misplaced* is the share of the transmitted flux that an interpolated indicatrix has in wrong directions. A
+//! prediction without the direction's own data interpolates over twice the spacing of the data; at the actual spacing a
+//! scheme of second order is expected to misplace a quarter as much, one of first order (nearest) half. The computation
+//! takes seconds, and no result depends on it. A scheme that predicts a direction better than [`SunScheme::Responses`]
+//! is named: for a single wide lobe, schemes that shift the whole indicatrix are as good.
 
 use super::judge::Judge;
 use super::lattice::{Lattice, Place};
@@ -15,39 +17,46 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-/// Share of τ's mean below which a direction lets too little through to judge shapes by. Chosen: affects the report on
-/// accuracy only, no light.
+/// Transmittance of an incident direction, relative to the mean τ of all directions, below which its indicatrix is too
+/// dark for a comparison of shapes. Chosen: affects the report on accuracy only, no light.
 const DARK: f64 = 1e-4;
-/// Ratio of the stated to the expected error: single directions scatter about the expectation. With [`STATED_AT_LEAST`]
-/// it holds for eight of ten directions or more of every analytic system, as `tests/compute/incidence_schemes` prints.
+/// Ratio of the stated to the expected share of misplaced flux: single directions scatter about the expectation. With
+/// [`STATED_AT_LEAST`] the stated share is an upper bound for at least eight of ten directions of every analytic
+/// system, as `tests/compute/incidence_schemes` prints.
 const STATED: f64 = 2.6;
-/// Minimum stated share of misplaced flux: moving a lobe across cells costs some thousandths.
+/// Minimum stated share of misplaced flux: shifting a lobe across cells alone misplaces some thousandths.
 const STATED_AT_LEAST: f64 = 4.5e-3;
-/// Distance from the direction left out within which lobes are fitted again, in edges of the lattice. All fluxes that
-/// enter the slopes on the edges around it lie within three edges; only responses at that distance lack neighbours.
+/// Distance from the direction left out within which lobes are fitted again, in edges of the triangulation. All fluxes
+/// that enter the slopes on the edges around it lie within three edges; only responses at that distance lack
+/// neighbours.
 const REACH: usize = 3;
 /// Points per side of a cell at which a lobe is evaluated.
 const POINTS: usize = 2;
 
-/// Shares of the flux that the schemes misplace, in the order of [`SunScheme::ALL`].
+/// Shares of the transmitted flux that the interpolation schemes send in wrong directions, one per scheme in the order
+/// of [`SunScheme::ALL`].
 pub type Errors = [f64; SunScheme::ALL.len()];
 
-/// Incident direction predicted without its own data.
+/// Errors of the indicatrix of one incident direction when it is interpolated from its neighbours, without its own
+/// data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prediction {
-    /// Incident direction, towards the source.
+    /// Incident direction, towards the source, façade frame.
     pub direction: Dir<Facade>,
-    /// Share of its flux that every scheme misplaces, at doubled spacing.
+    /// Share of the transmitted flux that each scheme sends in wrong directions, with interpolation over twice the
+    /// spacing of the data.
     pub errors: Errors,
 }
 
 impl Prediction {
-    /// Returns the share of flux that a scheme misplaces.
+    /// Returns the share of the transmitted flux that a scheme sends in wrong directions when it predicts this
+    /// direction from its neighbours, 0 … 1.
     pub fn error(&self, scheme: SunScheme) -> f64 {
         self.errors[scheme as usize]
     }
 
-    /// Returns the scheme that predicts this direction better than responses, and by how much.
+    /// Returns the scheme that predicts this direction better than the default [`SunScheme::Responses`], and the
+    /// reduction of the share of misplaced flux; `None` if none is better.
     pub fn better(&self) -> Option<(SunScheme, f64)> {
         let own = self.error(SunScheme::Responses);
         let gains = SunScheme::ALL.into_iter().map(|scheme| (scheme, own - self.error(scheme)));
@@ -55,17 +64,20 @@ impl Prediction {
     }
 }
 
-/// Results of leaving out each direction.
+/// Cross-validation of the interpolation between incident directions: errors of predicting each direction from its
+/// neighbours, without its own data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LeftOut {
-    /// Prediction of every direction of the data; `None` where no light gets through or no ring is left.
+    /// Prediction of every incident direction of the data; `None` where τ is about 0 or the direction has no
+    /// neighbours.
     predictions: Vec<Option<Prediction>>,
-    /// Errors of every direction, at least the mean of the neighbours': a direction may be predicted well by chance.
+    /// Errors of every direction, not below the mean over its neighbours: a single direction may be predicted well by
+    /// chance.
     around: Vec<Option<Errors>>,
 }
 
 impl LeftOut {
-    /// Leaves out one direction after the other.
+    /// Predicts every incident direction of a model from the others, one after the other.
     pub fn new(model: &Model) -> Self {
         let judge = Judge::new(&model.grid);
         let count = model.lattice.points().len();
@@ -75,20 +87,23 @@ impl LeftOut {
         Self { predictions, around }
     }
 
-    /// Returns the directions that could be predicted.
+    /// Returns the predictions of all incident directions that have one.
     pub fn directions(&self) -> impl Iterator<Item = &Prediction> {
         self.predictions.iter().flatten()
     }
 
-    /// Returns the mean over the directions of the share that a scheme misplaces; 0 without any.
+    /// Returns the mean over all predicted incident directions of the share of flux that a scheme sends in wrong
+    /// directions; 0 if no direction could be predicted.
     pub fn mean(&self, scheme: SunScheme) -> f64 {
         let sum: f64 = self.directions().map(|one| one.error(scheme)).sum();
         sum / self.directions().count().max(1) as f64
     }
 
-    /// Returns the share of flux stated to be misplaced at a place of the lattice, at the data's own spacing: 2.6 times
-    /// what is expected of the directions around, at least 0.45 %. Beyond the border the spacing's advantage is lost
-    /// step by step, up to the full error of doubled spacing at θ = 90°. Continuous in the place.
+    /// Returns the stated uncertainty of a scheme at a position between the incident directions: an upper estimate of
+    /// the share of the transmitted flux that it sends in wrong directions. It is 2.6 times the error expected from the
+    /// cross-validation of the surrounding directions, at least 0.45 %. The expected error is a quarter of theirs (half
+    /// for schemes that jump), because they were predicted over twice the spacing of the data; beyond the border of the
+    /// data it rises to their full error at θ = 90°. Continuous in `place`.
     pub fn stated(&self, scheme: SunScheme, place: &Place) -> f64 {
         let order = if scheme.is_continuous() { 0.25 } else { 0.5 };
         let factor = order + (1.0 - order) * place.beyond;
@@ -98,7 +113,7 @@ impl LeftOut {
     }
 }
 
-/// Computes the errors of all schemes in one direction, predicted without it.
+/// Computes the errors of all schemes for one incident direction, predicted without its own data.
 fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Prediction> {
     let tau = model.data.tau_by_direction();
     let mean = tau.iter().sum::<f64>() / tau.len() as f64;
@@ -125,7 +140,7 @@ fn without(model: &Model, judge: &Judge, vertex: usize) -> Option<Prediction> {
     Some(Prediction { direction, errors })
 }
 
-/// Returns the errors of a direction, none below the mean over its neighbours.
+/// Returns the errors of an incident direction, each raised to the mean over its neighbours if it is smaller.
 fn at_least_around(lattice: &Lattice, predictions: &[Option<Prediction>], vertex: usize) -> Option<Errors> {
     let ring: Vec<Errors> = lattice.neighbours(vertex).iter().filter_map(|&n| Some(predictions[n]?.errors)).collect();
     let own = predictions[vertex].map(|one| one.errors).or(ring.first().copied())?;
@@ -133,7 +148,7 @@ fn at_least_around(lattice: &Lattice, predictions: &[Option<Prediction>], vertex
     Some(std::array::from_fn(|k| own[k].max(mean(k))))
 }
 
-/// Returns the vertices within `edges` edges of one.
+/// Returns the vertices that are at most `edges` edges away from `vertex`.
 fn within(lattice: &Lattice, vertex: usize, edges: usize) -> BTreeSet<usize> {
     let mut near = BTreeSet::from([vertex]);
     for _ in 0..edges {

@@ -1,24 +1,27 @@
-//! Indicatrix as a smooth base and a few lobes: what moves with the incidence and what stays.
+//! Division of an indicatrix into a smooth base, which does not follow the incident direction, and a few lobes, which
+//! do.
 
 use super::grid::{Grid, Opening};
 use glam::DVec3;
 
-/// Reach of the opening that finds the base. \[rad\] Chosen with [`BLUR`]; both are held by the test
-/// `schemes_misplace_what_the_prototypes_did`: responses misplace less than 3 % of the flux of four analytic systems.
+/// Radius of the opening (minimum filter followed by maximum filter) that finds the base. \[rad\] Chosen with [`BLUR`];
+/// both are held by the test `schemes_misplace_what_the_prototypes_did`: responses misplace less than 3 % of the flux
+/// of four analytic systems.
 const REACH: f64 = 15.0 * std::f64::consts::PI / 180.0;
 /// Blur of the opening that finds the base, as a standard deviation. \[rad\] Chosen: half of [`REACH`], held by the
 /// same test.
 const BLUR: f64 = 7.5 * std::f64::consts::PI / 180.0;
-/// Share of the highest peak below which a peak is merged into its neighbour, and share of the lobes' flux below which
-/// a lobe is dropped. Chosen; held by the same test as [`REACH`].
+/// Minimum height of a peak as a share of the highest peak, below which it is merged into its neighbour; also the
+/// minimum flux of a lobe as a share of the flux of all lobes, below which it is dropped. Chosen; held by the same test
+/// as [`REACH`].
 const LEAST: f64 = 0.006;
-/// Maximum number of lobes of an indicatrix: what is more is noise, and following it would cost without end. Chosen:
-/// cost; the analytic systems of the tests have two at most. The light of further ones stays in the base.
+/// Maximum number of lobes of an indicatrix; the light of weaker ones stays in the base. Chosen: cost; further lobes
+/// are mostly noise, and the analytic systems of the tests have at most two.
 const MOST: usize = 6;
 /// Minimum share of the luminance at a lobe's peak that is above the base. Chosen; held by the same test as [`REACH`].
 const STANDS_OUT: f64 = 0.4;
-/// Share of a lobe's peak below which cells belong to the base: they need not move. A Gaussian lobe so ends at 3.5
-/// standard deviations, beyond which lies this share of its flux, 0.2 %.
+/// Share of a lobe's peak below which cells belong to the base and are not shifted. A Gaussian lobe therefore ends at
+/// 3.5 standard deviations, beyond which lies 0.2 % of its flux.
 const EDGE: f64 = 2e-3;
 /// Number of steps of [`Lobe::sharpened`]. Chosen: cost; held by the test
 /// `at_the_measured_directions_the_data_come_back`: less than 4.5 % of the flux is misplaced on cells of 8°.
@@ -27,23 +30,25 @@ const SHARPENING: usize = 3;
 /// same test as [`REACH`], whose panel has two lobes that meet.
 const SADDLE: f64 = 0.9;
 
-/// One lobe: some cells of an indicatrix and what they hold above the base.
+/// Lobe of an indicatrix: adjoining emergent cells with the part of q that rises above the smooth base.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lobe {
-    /// Mean direction weighted by luminance and solid angle (through direction).
+    /// Unit vector to the lobe's centre, its mean weighted by luminance and solid angle, as a direction of undeviated
+    /// light (reversed emergent direction, z > 0 in the façade frame).
     pub centre: DVec3,
-    /// Share of the incident flux, ∫q cosθ dω.
+    /// Flux of the lobe as a share of the incident flux, ∫q cosθ dω.
     pub flux: f64,
-    /// Angle from the centre that holds all its cells. \[rad\]
+    /// Angle about `centre` within which the centres of all its cells lie. \[rad\]
     pub radius: f64,
-    /// Values ring by ring: own ring number, first sector, values. \[1/sr\]
+    /// Values ring by ring: index of the ring in the basis, first sector, values. \[1/sr\]
     rows: Vec<(usize, usize, Vec<f64>)>,
-    /// Ring number of the first entry of `rows`.
+    /// Index in the basis of the ring of the first entry of `rows`.
     first_ring: usize,
 }
 
 impl Lobe {
-    /// Returns the value in a cell given by own ring and sector; 0 outside the lobe. \[1/sr\]
+    /// Returns the lobe's q in a cell, given by the indices of its ring and sector in the basis and by the number of
+    /// sectors of that ring; 0 outside the lobe. \[1/sr\]
     #[inline]
     pub fn value(&self, ring: usize, sector: usize, sectors: usize) -> f64 {
         let Some((_, first, values)) = ring.checked_sub(self.first_ring).and_then(|k| self.rows.get(k)) else {
@@ -53,7 +58,7 @@ impl Lobe {
         values.get(k).copied().unwrap_or(0.0)
     }
 
-    /// Returns the cells and their values. \[1/sr\]
+    /// Returns the indices of the lobe's cells and its q there. \[1/sr\]
     pub fn cells<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = (usize, f64)> + 'a {
         self.rows.iter().flat_map(move |(ring, first, values)| {
             let (start, sectors) = (grid.basis().first_cell(*ring), grid.basis().rings()[*ring].sectors);
@@ -61,8 +66,9 @@ impl Lobe {
         })
     }
 
-    /// Returns values at points such that linear interpolation between them has the lobe's means over its cells: undoes
-    /// the blur that means and interpolation bring, so that a lobe can be moved by parts of a cell without widening.
+    /// Returns the lobe with values at cell centres whose linear interpolation has the lobe's means over the cells.
+    /// This undoes the blur of means and interpolation, so that a lobe can be shifted by a fraction of a cell without
+    /// becoming wider.
     pub fn sharpened(&self, grid: &Grid) -> Self {
         let mut points = self.clone();
         for _ in 0..SHARPENING {
@@ -87,13 +93,13 @@ impl Lobe {
         points
     }
 
-    /// Returns the width of the data's cells around the lobe: the root of their mean solid angle. \[rad\]
+    /// Returns the typical width of the lobe's cells: the square root of their mean solid angle. \[rad\]
     pub fn cell_width(&self, grid: &Grid) -> f64 {
         let (sum, count) = self.cells(grid).fold((0.0, 0), |(sum, count), (i, _)| (sum + grid.solid[i], count + 1));
         (sum / f64::from(count.max(1))).sqrt()
     }
 
-    /// Returns the value in a direction, linear between cells. \[1/sr\]
+    /// Returns the lobe's q in a direction, linear between cell centres. \[1/sr\]
     pub fn at(&self, grid: &Grid, d: DVec3) -> f64 {
         if d.z <= 0.0 {
             return 0.0;
@@ -101,6 +107,7 @@ impl Lobe {
         grid.around_rings(d).into_iter().map(|(ring, sector, sectors, w)| w * self.value(ring, sector, sectors)).sum()
     }
 
+    /// Creates a lobe from the indices of its cells and its q there \[1/sr\]; `None` without flux.
     fn new(grid: &Grid, cells: &[(usize, f64)]) -> Option<Self> {
         let flux: f64 = cells.iter().map(|&(i, q)| q * grid.projected[i]).sum();
         let centre: DVec3 = cells.iter().map(|&(i, q)| grid.centre[i] * (q * grid.solid[i])).sum();
@@ -142,25 +149,26 @@ impl Lobe {
     }
 }
 
-/// Splitter of indicatrices into base and lobes.
+/// Splitter of indicatrices into a smooth base and lobes.
 #[derive(Debug, Clone)]
 pub struct Splitter {
     opening: Opening,
 }
 
 impl Splitter {
-    /// Creates a splitter for indicatrices on the cells of a grid.
+    /// Creates a splitter for indicatrices on the emergent cells of a grid.
     pub fn new(grid: &Grid) -> Self {
         Self { opening: Opening::new(grid, REACH, BLUR) }
     }
 
-    /// Returns the lobes of an indicatrix, largest flux first. What is left is the base.
+    /// Returns the lobes of an indicatrix `q` \[1/sr\] on the cells of `grid`, largest flux first. The remainder of `q`
+    /// is the base.
     pub fn lobes(&self, grid: &Grid, q: &[f64]) -> Vec<Lobe> {
         let base = self.opening.of(q);
         let sharp: Vec<f64> = q.iter().zip(&base).map(|(q, b)| (q - b).max(0.0)).collect();
         let total: f64 = sharp.iter().zip(&grid.projected).map(|(q, w)| q * w).sum();
         let all: f64 = q.iter().zip(&grid.projected).map(|(q, w)| q * w).sum();
-        // Less than this is noise on a diffuser, not light with a direction.
+        // Below these limits, the light above the base is noise on a diffuser, no lobe.
         if total <= 0.005 * all || total < 1e-6 {
             return Vec::new();
         }
@@ -176,7 +184,7 @@ impl Splitter {
                 cells.entry(owner).or_default().push((i, q));
             }
         }
-        // What rises above the base less than the base itself is a slope of the base, no lobe.
+        // A peak that rises too little above the base is a slope of the base, no lobe.
         let stands_out = |cells: &&Vec<(usize, f64)>| {
             let &(top, height) = cells.iter().max_by(|a, b| a.1.total_cmp(&b.1)).expect("a basin has cells");
             height > STANDS_OUT * q[top]
@@ -193,7 +201,8 @@ impl Splitter {
 /// Owner of a cell that belongs to no peak: larger than any number of a peak.
 const NONE: u32 = u32::MAX;
 
-/// Returns for every cell the peak that steepest ascent leads to; peaks without a real saddle between them are one.
+/// Returns for every cell the index of the peak that steepest ascent leads to; peaks without a distinct saddle between
+/// them count as one.
 fn basins(grid: &Grid, values: &[f64]) -> Vec<u32> {
     let highest = values.iter().copied().fold(0.0, f64::max);
     let mut rank: Vec<u32> = (0..values.len() as u32).filter(|&i| values[i as usize] > 1e-4 * highest).collect();

@@ -1,26 +1,29 @@
-//! Interpolation between incident directions: from indicatrices at single directions to any sun and any sky.
+//! Interpolation between incident directions: from indicatrices (q over the emergent directions) measured at single
+//! incident directions to the light of any sun and any sky.
 //!
-//! The report's indicatrices move and change shape between incident directions 12° apart. Here each is split into a
-//! smooth base and a few lobes; every lobe is followed to the neighbouring directions, which tells how it moves and
-//! how its flux changes; an indicatrix in between is made of the lobes of the three directions around, each moved by
-//! its own response, and of their bases.
+//! The indicatrices of the IEA SHC Task 31 report move and change shape between incident directions 12° apart. Here
+//! each is split into a smooth base and a few lobes; every lobe is matched with a lobe at the neighbouring directions,
+//! which shows how its centre and its flux change with the incident direction; an indicatrix in between consists of the
+//! lobes of the three surrounding directions, each shifted by its response (the change of its centre with the incident
+//! direction), and of their bases.
 //!
-//! | file | what |
+//! | file | content |
 //! | --- | --- |
 //! | `lattice` | the triangles between incident directions |
-//! | `grid` | emergent cells as a picture |
-//! | `lobes` | an indicatrix as base and lobes |
-//! | `raster` | a lobe as a picture that is cheap to move |
-//! | `response` | which lobe is the same one at a neighbour, and how it moves |
-//! | `flux` | fluxes between the directions: cubics and kinks |
-//! | `grazing` | beyond the last row |
-//! | `filter` | the matched filter for diffuse light |
+//! | `grid` | emergent cells with neighbours, weights and interpolation between them |
+//! | `lobes` | division of an indicatrix into base and lobes |
+//! | `raster` | a lobe as samples on a square grid, which can be rotated at little cost |
+//! | `response` | correspondence of lobes at neighbouring directions, and their responses |
+//! | `flux` | interpolation of fluxes between the directions: cubics and kinks |
+//! | `grazing` | extrapolation of τ to θ = 90° |
+//! | `filter` | filter for diffuse light: spreads each indicatrix over the patch that its incident direction represents
+//! |
 //! | `model` | the indicatrix of any incident direction |
-//! | `superpose` | sky and sun through it |
-//! | `schemes` | the report's schemes of interpolation beside it |
-//! | `judge` | the difference of two indicatrices |
-//! | `left_out` | accuracy of each scheme, by leaving directions out |
-//! | `ways` | treatment of the lobes between three directions |
+//! | `superpose` | luminance of the room side under sky and sun |
+//! | `schemes` | interpolation schemes of the IEA SHC Task 31 report, for comparison |
+//! | `judge` | share of flux in wrong directions between two indicatrices |
+//! | `left_out` | accuracy of each scheme, by cross-validation |
+//! | `ways` | treatment of the lobes within a triangle of incident directions (shifted, fading, blended), for display |
 
 pub mod filter;
 pub mod flux;

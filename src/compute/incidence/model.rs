@@ -1,4 +1,5 @@
-//! Indicatrix of any incident direction from those of a lattice.
+//! Indicatrix (q over the emergent directions) of any incident direction, interpolated from those of the data's
+//! incident directions.
 
 use super::flux::{Bump, Field, Slopes, along_one_line, bump, missed_behind, slopes};
 use super::grazing::Grazing;
@@ -14,61 +15,64 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Lobe of the data, moved and scaled.
+/// Lobe of an indicatrix of the data, shifted to another centre and scaled to another flux.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Copy {
-    /// Incident direction that the lobe comes from.
+    /// Index of the incident direction of the data that the lobe comes from.
     pub vertex: usize,
-    /// Number of the lobe at that direction.
+    /// Index of the lobe at that direction.
     pub lobe: usize,
-    /// Centre of the moved lobe (through direction).
+    /// Unit vector to the centre of the shifted lobe, as a direction of undeviated light (reversed emergent direction,
+    /// façade frame).
     pub centre: DVec3,
-    /// Share of the incident flux; more than 0.
+    /// Flux of the shifted lobe as a share of the incident flux; above 0.
     pub flux: f64,
-    /// Share of the incident flux by linear interpolation alone.
+    /// Flux of the lobe as a share of the incident flux, if it were interpolated linearly.
     pub linear: f64,
 }
 
-/// Base of the data and its weight.
+/// Smooth base of an indicatrix of the data, and its weight in an interpolated indicatrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Base {
-    /// Incident direction that the base comes from.
+    /// Index of the incident direction of the data that the base comes from.
     pub vertex: usize,
-    /// Weight of the base, with its flux interpolated to second order.
+    /// Weight of the base when the flux of the bases is interpolated to second order.
     pub factor: f64,
-    /// Weight of the base by linear interpolation alone.
+    /// Weight of the base when the flux of the bases is interpolated linearly.
     pub linear: f64,
 }
 
-/// Indicatrix as a recipe: bases of the data with factors, and copies of lobes.
+/// Interpolated indicatrix as a list of its components: weighted bases and shifted lobes of the data.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recipe {
-    /// Bases with their weights.
+    /// Bases of the surrounding incident directions with their weights.
     pub bases: Vec<Base>,
-    /// Copies of lobes.
+    /// Shifted lobes of the surrounding incident directions.
     pub copies: Vec<Copy>,
 }
 
-/// Model for interpolation between incident directions.
+/// Model for interpolation between incident directions: the indicatrices of the data, divided into bases and lobes, and
+/// the change of each lobe with the incident direction.
 pub struct Model {
     pub(super) data: Arc<Indicatrices>,
     pub(super) grid: Arc<Grid>,
     pub(super) lattice: Lattice,
     pub(super) lobes: Vec<Vec<Lobe>>,
     pub(super) responses: Responses,
-    /// Pictures of the lobes.
+    /// Samples of the lobes on square grids, by incident direction and lobe.
     pub(super) rasters: Vec<Vec<Raster>>,
-    /// Share of the incident flux in the base of every incident direction.
+    /// Flux of the base of every incident direction, as a share of the incident flux.
     pub(super) base_flux: Vec<f64>,
-    /// Terms that edges add to linear interpolation of the flux, where the lobe is at both ends; by vertex, lobe (the
-    /// base behind the last) and neighbour.
+    /// Terms that the edges of the triangulation add to linear interpolation of the flux, for lobes that exist at both
+    /// ends; by incident direction, lobe (the base after the last lobe) and neighbour.
     bumps: Vec<Vec<Vec<Option<Bump>>>>,
-    /// Flux that a lobe's slope predicts at a neighbour without the lobe; by vertex, lobe and neighbour.
+    /// Flux that a lobe's slope predicts at a neighbour without the lobe, at most 0; by incident direction, lobe and
+    /// neighbour.
     followed: Vec<Vec<Vec<f64>>>,
     grazing: Vec<Option<Grazing>>,
 }
 
-/// Field of the fluxes of lobes.
+/// Fluxes of the lobes at all incident directions, as a scalar to interpolate.
 struct LobeFlux<'a>(&'a [Vec<Lobe>], &'a Responses, &'a [Option<Grazing>]);
 
 impl Field for LobeFlux<'_> {
@@ -83,7 +87,7 @@ impl Field for LobeFlux<'_> {
     }
 }
 
-/// Field of the fluxes of bases; every direction has one.
+/// Fluxes of the bases at all incident directions, as a scalar to interpolate; every direction has one.
 struct BaseFlux<'a>(&'a [f64], &'a [Option<Grazing>]);
 
 impl Field for BaseFlux<'_> {
@@ -98,7 +102,8 @@ impl Field for BaseFlux<'_> {
     }
 }
 
-/// Returns the terms of all edges that begin at a lobe of a vertex.
+/// Returns the terms that all edges from an incident direction add to linear interpolation of a lobe's scalar; `None`
+/// where the neighbour lacks the lobe.
 fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -> Vec<Option<Bump>> {
     let own = slopes(lattice, field, vertex, lobe);
     let of = |v: usize, l: usize| slopes(lattice, field, v, l);
@@ -117,8 +122,9 @@ fn bumps_of(lattice: &Lattice, field: &impl Field, vertex: usize, lobe: usize) -
         .collect()
 }
 
-/// Returns the flux that a lobe's slope, seen from the neighbours on the other side, leaves at each neighbour; at most
-/// 0, and 0 where the lobe is there again behind the neighbour (it only touches zero, as a panel's share does).
+/// Returns the flux of a lobe extrapolated to each neighbour by the slope from the neighbours on the other side; at
+/// most 0, and 0 where the lobe exists again beyond the neighbour (a flux that only touches zero, like the share that a
+/// panel deflects).
 fn followed_of(
     lattice: &Lattice,
     field: &impl Field,
@@ -149,7 +155,8 @@ fn followed_of(
 }
 
 impl Model {
-    /// Splits every indicatrix and follows its lobes to the neighbours.
+    /// Creates the model of measured indicatrices: divides each into base and lobes and follows the lobes to the
+    /// neighbouring incident directions.
     pub fn new(data: Arc<Indicatrices>) -> Self {
         let grid = Grid::new(data.emergent());
         let lattice = Lattice::new(data.incident());
@@ -164,8 +171,9 @@ impl Model {
         Self { rasters, ..fitted }
     }
 
-    /// Follows split indicatrices over a lattice. Fluxes between directions are only found where a vertex is `wanted`;
-    /// recipes there are complete, but nothing can be drawn.
+    /// Creates a model from indicatrices already divided into lobes and bases. Fluxes between directions are computed
+    /// only at incident directions that are `wanted`; recipes there are complete, but without rasters lobes cannot be
+    /// evaluated on cells.
     pub(super) fn fitted(
         data: Arc<Indicatrices>,
         grid: Arc<Grid>,
@@ -197,22 +205,24 @@ impl Model {
         Self { data, grid, lattice, lobes, responses, rasters: Vec::new(), base_flux, bumps, followed, grazing }
     }
 
-    /// Returns the emergent cells.
+    /// Returns the emergent cells of the data.
     pub fn grid(&self) -> &Grid {
         &self.grid
     }
 
-    /// Returns the division of the hemisphere that the incident directions stand for, where they are one.
+    /// Returns the basis whose patches the incident directions of the data represent; `None` if they are not the
+    /// centres of such patches.
     pub fn lattice_cells(&self) -> Option<&RingBasis> {
         self.data.lattice()
     }
 
-    /// Returns the lattice of the incident directions.
+    /// Returns the triangulation of the incident directions of the data.
     pub fn lattice(&self) -> &Lattice {
         &self.lattice
     }
 
-    /// Returns the indicatrix for an incident direction, every lobe moved by its own response.
+    /// Returns the interpolated indicatrix for an incident direction as weighted bases and shifted lobes, each lobe
+    /// shifted by its response.
     pub fn recipe(&self, incident: Dir<Facade>) -> Recipe {
         let place = self.lattice.locate(incident);
         let used: Vec<(usize, f64)> =
@@ -228,7 +238,7 @@ impl Model {
         recipe
     }
 
-    /// Limits the light to what arrives, unless the data themselves have more.
+    /// Scales a recipe so that its flux does not exceed the incident flux, unless τ of the data does.
     fn limit(&self, used: &[(usize, f64)], recipe: &mut Recipe) {
         let most = used.iter().map(|&(v, _)| self.data.tau_by_direction()[v]).fold(1.0, f64::max);
         let bases: f64 = recipe.bases.iter().map(|base| base.factor * self.base_flux[base.vertex]).sum();
@@ -240,7 +250,7 @@ impl Model {
         }
     }
 
-    /// Blends the bases, their flux interpolated to second order.
+    /// Returns the bases with their barycentric weights, scaled so that their flux is interpolated to second order.
     fn bases(&self, used: &[(usize, f64)]) -> Vec<Base> {
         let linear: f64 = used.iter().map(|&(v, w)| w * self.base_flux[v]).sum();
         let mut flux = linear;
@@ -254,17 +264,18 @@ impl Model {
         used.iter().map(|&(vertex, w)| Base { vertex, factor: w * factor, linear: w }).collect()
     }
 
-    /// Returns the place of `to` in the neighbours of `from`.
+    /// Returns the index of the direction `to` among the neighbours of `from`.
     fn neighbour(&self, from: usize, to: usize) -> Option<usize> {
         self.lattice.neighbours(from).binary_search(&to).ok()
     }
 
-    /// Returns the partner at `to` of a lobe at `from`.
+    /// Returns the index of the lobe at the direction `to` that corresponds to a lobe at `from`.
     fn partner(&self, from: usize, lobe: usize, to: usize) -> Option<usize> {
         self.responses.partner[from][self.neighbour(from, to)?][lobe]
     }
 
-    /// Returns the lobes of up to three vertices that are the same one: at each vertex a lobe, or none.
+    /// Returns the families of corresponding lobes at up to three incident directions: for each family the index of its
+    /// lobe at each direction, or `None`.
     fn families(&self, used: &[(usize, f64)]) -> Vec<[Option<usize>; 3]> {
         let mut families: Vec<[Option<usize>; 3]> = Vec::with_capacity(4);
         for (k, &(v, _)) in used.iter().enumerate() {
@@ -291,9 +302,9 @@ impl Model {
         families
     }
 
-    /// Adds the copies of one family at a direction. Vertices without the lobe are taken for where its flux, followed
-    /// from the others, has fallen to or below zero: this puts the end of a lobe (a blind's cut-off) where its slope
-    /// says.
+    /// Adds the shifted lobes of one family for the incident direction `d`. At directions without the lobe, its flux
+    /// extrapolated from the others (at most 0) is used, so that the end of a lobe (a blind's cut-off) lies where its
+    /// slope predicts it.
     fn family(&self, used: &[(usize, f64)], family: &[Option<usize>; 3], d: DVec3, copies: &mut Vec<Copy>) {
         let points = self.lattice.points();
         let present: Vec<(usize, f64, usize)> =
@@ -313,7 +324,7 @@ impl Model {
         }
         for (k, &(a, wa, la)) in present.iter().enumerate() {
             for &(b, wb, lb) in &present[k + 1..] {
-                // Only the same lobe on both sides has a bump, and its copy in the other direction is the same.
+                // Only lobes that correspond to each other have a correction; it is the same in both directions.
                 let k = self.neighbour(a, b).filter(|&k| self.responses.partner[a][k][la] == Some(lb));
                 flux += k.and_then(|k| self.bumps[a][la][k]).map_or(0.0, |bump| bump.at(wa, wb));
             }
@@ -330,7 +341,7 @@ impl Model {
         }
     }
 
-    /// Scales everything beyond the border by the border's τ.
+    /// Scales a recipe beyond the border of the data by the extrapolation of τ to θ = 90°.
     fn fade(&self, place: &Place, recipe: &mut Recipe) {
         let factor: f64 = (0..3)
             .map(|k| place.weights[k] * self.grazing[place.vertices[k]].map_or(1.0, |g| g.factor(place.beyond)))
@@ -343,13 +354,14 @@ impl Model {
         recipe.copies.iter_mut().for_each(|copy| (copy.flux, copy.linear) = (copy.flux * factor, copy.linear * factor));
     }
 
-    /// Returns the diameter of the narrowest lobe; infinite without lobes. \[rad\]
+    /// Returns the angular diameter of the narrowest lobe of all indicatrices; infinite without lobes. \[rad\]
     pub fn narrowest_lobe(&self) -> f64 {
         self.lobes.iter().flatten().map(|lobe| 2.0 * lobe.radius).fold(f64::INFINITY, f64::min)
     }
 
-    /// Draws a moved lobe on the emergent cells: turned from its own centre to the copy's, its flux kept exactly.
-    /// `points`² directions per cell.
+    /// Computes q of a shifted lobe on the cells of `target` from `points`² directions per cell, with exactly the flux
+    /// of `copy`. The lobe is rotated from its centre in the data to that of `copy`. `out` receives the indices of the
+    /// cells and q \[1/sr\]; it is emptied first.
     pub fn moved(&self, copy: &Copy, target: &Grid, points: usize, out: &mut Vec<(u32, f64)>) {
         out.clear();
         let lobe = &self.lobes[copy.vertex][copy.lobe];
@@ -367,7 +379,8 @@ impl Model {
         }
     }
 
-    /// Returns the base of one incident direction on the emergent cells. \[1/sr\]
+    /// Returns q of the smooth base of one incident direction (by index) on the emergent cells of the data: the
+    /// indicatrix without its lobes. \[1/sr\]
     pub fn base(&self, vertex: usize) -> Vec<f64> {
         let mut row = self.data.row(vertex).into_owned();
         for lobe in &self.lobes[vertex] {

@@ -1,33 +1,34 @@
-//! Lobe as a small picture about its own centre, so that moving it costs two scalar products per direction.
+//! Lobe of an indicatrix as samples on a square grid about its centre, so that the rotated lobe costs two scalar
+//! products per direction.
 
 use super::grid::Grid;
 use super::lobes::Lobe;
 use glam::DVec3;
 
-/// Values of a lobe on a square grid of direction cosines about its centre.
+/// Values of a lobe's q \[1/sr\] on a square grid of direction cosines about its centre.
 #[derive(Debug, Clone)]
 pub struct Raster {
-    /// First axis of the picture.
+    /// First axis of the grid, perpendicular to the centre.
     x: DVec3,
-    /// Second axis of the picture.
+    /// Second axis of the grid, perpendicular to the centre.
     y: DVec3,
-    /// Centre of the lobe.
+    /// Unit vector to the centre of the lobe.
     z: DVec3,
     /// Number of points per side.
     count: usize,
     /// Spacing of the points. \[direction cosine\]
     spacing: f64,
-    /// Half the side. \[direction cosine\]
+    /// Half of the grid's side. \[direction cosine\]
     half: f64,
     values: Vec<f64>,
 }
 
-/// Points per width of the data's cells. Chosen: cost; held by the test
+/// Number of grid points per width of the data's emergent cells. Chosen: cost; held by the test
 /// `at_the_measured_directions_the_data_come_back`.
 const DENSITY: f64 = 3.0;
 
 impl Raster {
-    /// Samples a lobe, sharpened so that its means over cells are the data's.
+    /// Samples a lobe, sharpened so that its means over cells are those of the data.
     pub fn new(grid: &Grid, lobe: &Lobe) -> Self {
         let points = lobe.sharpened(grid);
         let (x, y) = lobe.centre.any_orthonormal_pair();
@@ -47,18 +48,18 @@ impl Raster {
         Self { x, y, z: lobe.centre, count, spacing, half, values }
     }
 
-    /// Returns the picture turned to another centre.
+    /// Returns the lobe rotated so that its centre lies in the direction `centre`.
     pub fn turned(&self, centre: DVec3) -> Turned<'_> {
         self.turned_by(glam::DQuat::from_rotation_arc(self.z, centre))
     }
 
-    /// Returns the picture rotated by `turn`.
+    /// Returns the lobe rotated by `turn`.
     pub fn turned_by(&self, turn: glam::DQuat) -> Turned<'_> {
         Turned { raster: self, x: turn * self.x, y: turn * self.y, z: turn * self.z }
     }
 }
 
-/// Picture of a lobe about another centre.
+/// Samples of a lobe, rotated to another centre.
 pub struct Turned<'a> {
     raster: &'a Raster,
     x: DVec3,
@@ -67,7 +68,7 @@ pub struct Turned<'a> {
 }
 
 impl Turned<'_> {
-    /// Returns the value in a direction. \[1/sr\]
+    /// Returns q of the rotated lobe in a direction (unit vector), 0 outside it. \[1/sr\]
     #[inline]
     pub fn at(&self, d: DVec3) -> f64 {
         let raster = self.raster;

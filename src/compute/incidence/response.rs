@@ -1,43 +1,49 @@
-//! Correspondence of the lobes of neighbouring incident directions: which lobe is the same one, and how it moves with
-//! the incidence.
+//! Correspondence of the lobes of neighbouring incident directions: which lobes belong together, and how their centres
+//! change with the incident direction.
 //!
-//! A lobe moves by its own response, a 2 × 2 matrix between direction cosines: the unit matrix for undeviated light,
-//! diag(1, −1) for light mirrored in the vertical, anything else for rolled panels and prisms. Plane layers and
-//! gratings shift direction cosines, so that for them the matrix is constant and the move exact.
+//! The response of a lobe is the 2 × 2 matrix of the changes of its centre's direction cosines with those of the
+//! incident direction: the unit matrix for undeviated light, diag(1, −1) for light mirrored in the vertical, anything
+//! else for rolled panels and prisms. Plane layers and gratings shift direction cosines, so that for them the matrix is
+//! constant and the predicted centre exact.
 
 use super::lattice::{Lattice, tangent_step};
 use super::lobes::Lobe;
 use glam::{DMat2, DVec2, DVec3};
 
-/// Distance after the move above which two lobes are different. \[chord\] What responses misplace with this and
-/// [`FLUX_COST`] is printed by `tests/compute/incidence_schemes`; no table of other values is kept.
+/// Distance between a lobe's predicted centre and a lobe at the neighbour above which the two are different lobes.
+/// \[chord\] The share of flux misplaced with this and [`FLUX_COST`] is printed by `tests/compute/incidence_schemes`;
+/// no table of other values is kept.
 const GATE: f64 = 0.12;
-/// Cost of disagreement in flux, as a chord per unit of ln(f/f′).
+/// Distance added for different fluxes f and f′ of two lobes, as a chord per unit of |ln(f/f′)|.
 const FLUX_COST: f64 = 0.035;
 
-/// Responses and partners of the lobes of every incident direction.
+/// Changes of the lobes with the incident direction: for every lobe the derivative of its centre, and the corresponding
+/// lobes at the neighbouring incident directions.
 #[derive(Debug, Clone)]
 pub struct Responses {
-    /// Derivative d(u, v of the lobe's centre) / d(u, v of the incidence), by direction and lobe.
+    /// Derivative of the direction cosines (x, y) of a lobe's centre with respect to those of the incident direction;
+    /// by index of incident direction and lobe.
     pub jacobian: Vec<Vec<DMat2>>,
-    /// Number of the same lobe at a neighbour, by direction, neighbour (as listed by the lattice) and lobe; `None` if
-    /// absent.
+    /// Index of the corresponding lobe at a neighbouring incident direction; by incident direction, neighbour (in the
+    /// order of the triangulation's list) and lobe. `None` if the neighbour lacks the lobe.
     pub partner: Vec<Vec<Vec<Option<usize>>>>,
 }
 
-/// Returns a point of the disk of direction cosines, lifted to the hemisphere.
+/// Returns the unit vector (z ≥ 0) with the direction cosines `p` along x and y; points outside the unit disk give the
+/// nearest direction at z = 0.
 pub fn lift(p: DVec2) -> DVec3 {
     let r = p.length();
     if r < 1.0 { p.extend((1.0 - r * r).sqrt()) } else { (p / r).extend(0.0) }
 }
 
 impl Responses {
-    /// Fits the responses of all lobes, and finds their partners.
+    /// Fits the responses of all lobes, and finds the corresponding lobes at neighbouring incident directions. `lobes`:
+    /// lobes by incident direction.
     pub fn new(lattice: &Lattice, lobes: &[Vec<Lobe>]) -> Self {
         let alone: Vec<Vec<DMat2>> = (0..lobes.len())
             .map(|v| lobes[v].iter().map(|lobe| jacobian(lattice, lobes, v, lobe, &[])).collect())
             .collect();
-        // A response that neighbours have too is more likely than one of its own.
+        // A response that neighbouring directions have, too, is more likely than a different one.
         let jacobians: Vec<Vec<DMat2>> = (0..lobes.len())
             .map(|v| {
                 let shared: Vec<DMat2> = lattice.neighbours(v).iter().flat_map(|&n| alone[n].iter().copied()).collect();
@@ -52,7 +58,7 @@ impl Responses {
 }
 
 impl Responses {
-    /// Whether a lobe, absent at a neighbour, is there again beyond it.
+    /// Whether a lobe that is absent at a neighbouring direction exists again at a direction beyond that neighbour.
     pub fn returns(&self, lattice: &Lattice, lobes: &[Vec<Lobe>], (v, l): (usize, usize), neighbour: usize) -> bool {
         let points = lattice.points();
         let ahead = tangent_step(points[v], points[neighbour]).length();
@@ -65,7 +71,8 @@ impl Responses {
     }
 }
 
-/// Returns the partners at the neighbour `n` of the lobes of `v`: each the best for the other.
+/// Returns for each lobe of direction `v` the corresponding lobe at its neighbour `n`: the pairs in which each is the
+/// best match of the other.
 fn partners(
     lattice: &Lattice,
     lobes: &[Vec<Lobe>],
@@ -87,17 +94,20 @@ fn partners(
         .map(|l| {
             let there = best(v, n, l)?;
             let back = best(n, v, there);
-            // A lobe whose own response is unsure still has a partner when the other side finds it.
+            // A counterpart is accepted if it leads back to the lobe, or if it leads to none and is the neighbour's
+            // only lobe.
             (back == Some(l) || (back.is_none() && lobes[n].len() == 1)).then_some(there)
         })
         .collect()
 }
 
+/// Returns the disagreement of a lobe with a predicted centre and flux, as a chord.
 fn cost(target: DVec3, flux: f64, lobe: &Lobe) -> f64 {
     (target - lobe.centre).length() + FLUX_COST * (flux / lobe.flux).ln().abs()
 }
 
-/// Returns the response that most neighbours agree on.
+/// Returns the response of a lobe that agrees best with the lobes at the neighbouring directions; simple responses and
+/// those `shared` by neighbours are preferred.
 fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, shared: &[DMat2]) -> DMat2 {
     let centre = lobe.centre.truncate();
     let around: Vec<(usize, DVec2)> = lattice
@@ -113,7 +123,7 @@ fn jacobian(lattice: &Lattice, lobes: &[Vec<Lobe>], v: usize, lobe: &Lobe, share
             .map(|other| (cost(target, lobe.flux, other), other.centre.truncate()))
             .min_by(|a, b| a.0.total_cmp(&b.0))
     };
-    // Disagreement with every neighbour, each counted up to the gate; wild responses pay for it.
+    // Disagreement with every neighbour, each limited to the gate, plus a penalty for responses unlike a rotation.
     let score = |jacobian: DMat2| {
         let disagreement: f64 = around
             .iter()
@@ -189,8 +199,8 @@ fn refined(
     if agreeing.len() < 3 {
         return None;
     }
-    // The start counts as if it had been seen over a step of 0.04: towards grazing, direction cosines hardly change and
-    // the centres' own errors would decide.
+    // The initial response has the weight of a step of 0.04 in direction cosines: towards grazing incidence these
+    // hardly change, and errors of the centres would decide.
     let keep = agreeing.len() as f64 * 0.04 * 0.04;
     square += DMat2::from_diagonal(DVec2::splat(keep));
     mixed += start * keep;

@@ -1,4 +1,5 @@
-//! Systems with a closed form at every incident direction, for tests: their measured data, and the truth between.
+//! Systems with a closed form at every incident direction, for tests: their simulated measured data, and the exact
+//! indicatrix between the measured directions.
 
 use super::grid::Grid;
 use super::judge::Judge;
@@ -11,14 +12,15 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Lobes as (share, direction, spread \[rad\]) and a diffuse share.
+/// Lobes as (share of the incident flux, direction, standard deviation \[rad\]), and the diffuse share of the incident
+/// flux.
 type Parts = (Vec<(f64, DVec3, f64)>, f64);
 
-/// A system and its emergent cells.
+/// Analytic system and the emergent cells of its data.
 pub struct Sample {
     /// Emergent cells.
     pub grid: Grid,
-    /// Lobes and diffuse share of an incident direction.
+    /// Lobes and diffuse share as a function of the incident direction.
     pub parts: fn(DVec3) -> Parts,
 }
 
@@ -31,12 +33,12 @@ fn cells() -> Grid {
     Grid::new(&sub_patches(4_f64.to_radians()))
 }
 
-/// A clear pane whose lobe has a spread of 3°.
+/// Creates a clear pane whose lobe has a standard deviation of 3°.
 pub fn clear() -> Sample {
     Sample { grid: cells(), parts: |d| (vec![(pane(d.z), d, 3_f64.to_radians())], 0.0) }
 }
 
-/// A laser-cut panel: a straight and a mirrored lobe with shares that change with the profile angle.
+/// Creates a laser-cut panel: an undeviated and a mirrored lobe with shares that change with the profile angle.
 pub fn panel() -> Sample {
     let parts = |d: DVec3| {
         let y = d.y / 1.5;
@@ -48,7 +50,7 @@ pub fn panel() -> Sample {
     Sample { grid: cells(), parts }
 }
 
-/// Slats tilted by 20° with a cut-off, and diffuse light off them.
+/// Creates slats tilted by 20° with a cut-off, and light diffusely reflected by them.
 pub fn slats() -> Sample {
     let parts = |d: DVec3| {
         let psi = d.y.atan2(d.z);
@@ -58,19 +60,19 @@ pub fn slats() -> Sample {
     Sample { grid: cells(), parts }
 }
 
-/// A diffuser.
+/// Creates an ideal diffuser.
 pub fn diffuser() -> Sample {
     Sample { grid: cells(), parts: |d| (vec![], 0.5 / 0.9 * pane(d.z)) }
 }
 
-/// Opaque in the lower half, clear above: rows without any light beside rows with.
+/// Creates a system that transmits light from above only: rows of directions without any light beside rows with it.
 pub fn half_blind() -> Sample {
     let parts = |d: DVec3| if d.y > 0.1 { (vec![(0.8, d, 3_f64.to_radians())], 0.0) } else { (vec![], 0.0) };
     Sample { grid: cells(), parts }
 }
 
 impl Sample {
-    /// Returns q on the cells, the flux of every part exact. \[1/sr\]
+    /// Returns q of the indicatrix for an incident direction on the cells, with the exact flux of every lobe. \[1/sr\]
     pub fn row(&self, d: DVec3) -> Vec<f64> {
         let (lobes, diffuse) = (self.parts)(d);
         let mut row = vec![diffuse / PI; self.grid.centre.len()];
@@ -86,20 +88,20 @@ impl Sample {
         row
     }
 
-    /// Returns the share of flux misplaced by an indicatrix on the cells.
+    /// Returns the share of flux that the indicatrix `q` for the incident direction `d` has in wrong directions.
     pub fn misplaced(&self, d: DVec3, q: &[f64]) -> f64 {
         Judge::new(&self.grid).misplaced(q, &self.row(d)).unwrap()
     }
 }
 
-/// Returns the data that a goniophotometer with 145 directions measures of a sample.
+/// Returns the data that a goniophotometer would measure of a sample at Tregenza's 145 incident directions.
 pub fn data(sample: &Sample) -> Indicatrices {
     let incident: Vec<Incident> = RingBasis::tregenza().cells().map(|cell| Incident(cell.centre())).collect();
     let values = incident.iter().flat_map(|d| sample.row(d.0.vector())).collect();
     Indicatrices::new(incident, sample.grid.basis().clone(), values).unwrap()
 }
 
-/// Returns the model of a sample's data.
+/// Returns the interpolation model of a sample's simulated data.
 pub fn model(sample: &Sample) -> Model {
     Model::new(Arc::new(data(sample)))
 }

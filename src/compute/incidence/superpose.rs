@@ -1,9 +1,9 @@
-//! Light through interpolated indicatrices: diffuse light (eq 12) in sub-patches finer than the incident lattice,
-//! the sun (eq 16) at its own place.
+//! Luminance of the room side by interpolated indicatrices: under diffuse light (eq 12) from sub-patches finer than the
+//! spacing of the incident directions, and under the sun (eq 16) at its actual position.
 //!
-//! Beside the luminance stand its uncertainties: what the same light would be with fluxes interpolated in straight
-//! lines; under the sun, also on the data's own cells, and with lobes a little to the right and a little higher, each
-//! less what it is. Their integrals at a sensor show how much the result there depends on what lies between the data.
+//! The luminance has uncertainties, as differences to the luminance with fluxes interpolated linearly; under the sun
+//! also to that on the coarser cells of the data, and to that with lobes shifted slightly to the right and upwards.
+//! Their integrals at a sensor show how much its illuminance depends on the interpolation between the data.
 
 use super::grid::Grid;
 use super::model::{Copy, Model};
@@ -13,35 +13,41 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Luminance on emergent cells and its uncertainties. \[cd/m²\]
+/// Luminance of an aperture's room side on emergent cells, and its uncertainties. \[cd/m²\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellLuminance {
-    /// Luminance by cell. \[cd/m²\]
+    /// Luminance by emergent cell. \[cd/m²\]
     pub luminance: Vec<f64>,
-    /// Signed difference to the simpler interpolation, by cell. \[cd/m²\]
+    /// Luminance with simpler (linear) interpolation less `luminance`, by cell. \[cd/m²\]
     pub uncertainty: Vec<f64>,
-    /// Uncertainties under the sun, by cell: from the lobes' own places (signed differences for lobes moved along x_F
-    /// and along y_F), and from everything else. \[cd/m²\] Empty for diffuse light, where such moves cancel.
+    /// Further uncertainties under the sun, each by cell: signed differences for lobes shifted along x_F and along y_F
+    /// of the façade frame, and the remaining relative uncertainty times the luminance. \[cd/m²\] Empty for diffuse
+    /// light, for which such shifts cancel.
     pub shifts: Vec<Vec<f64>>,
 }
 
-/// Uncertainty of a lobe's place, in widths of the data's cells. `examples/incidence_errors` prints what this,
-/// [`SUN_REST`], [`BEYOND`] and [`REST`] make of stated against true errors on analytic systems, for a range of each.
+/// Uncertainty of the centre of an interpolated lobe, in widths of the data's emergent cells. Chosen:
+/// `examples/incidence_errors` compares stated and true errors on analytic systems for a range of this, [`SUN_REST`],
+/// [`BEYOND`] and [`REST`].
 pub const PLACE: f64 = 0.06;
-/// Relative uncertainty of the sun's light from everything else, in any direction.
+/// Relative uncertainty of the luminance under the sun beside that of the lobes' centres, for any incident direction.
+/// Chosen as described at [`PLACE`].
 pub const SUN_REST: f64 = 0.012;
-/// Additional relative uncertainty of the sun's light at θ = 90° beyond the last row.
+/// Additional relative uncertainty of the luminance under the sun at θ = 90°, beyond the largest θ of the data. Chosen
+/// as described at [`PLACE`].
 pub const BEYOND: f64 = 0.4;
-/// Relative error that interpolation between the incident directions leaves beside its uncertainties, of sky and sun.
+/// Relative error of the luminance by interpolation between incident directions that its uncertainties do not include,
+/// for sky and sun. Chosen as described at [`PLACE`].
 pub const REST: f64 = 5e-3;
 
 impl CellLuminance {
-    /// Creates luminances of 0 on `cells` cells.
+    /// Creates luminances and uncertainties of 0 on `cells` cells.
     pub fn dark(cells: usize) -> Self {
         Self { luminance: vec![0.0; cells], uncertainty: vec![0.0; cells], shifts: Vec::new() }
     }
 
-    /// Returns the luminance on the cells `target`, which lie within the cells `own`.
+    /// Returns the luminance on finer cells: every cell of `target` takes the value of the cell of `own` that holds its
+    /// centre.
     pub fn on(self, own: &Grid, target: &Grid) -> Self {
         if own.basis() == target.basis() {
             return self;
@@ -57,13 +63,13 @@ impl CellLuminance {
     }
 }
 
-/// Returns the cell of `own` that holds each cell of `target`.
+/// Returns the index of the cell of `own` that holds the centre of each cell of `target`.
 fn parents(own: &Grid, target: &Grid) -> Vec<usize> {
     target.centre.iter().map(|&d| own.basis().index(Dir::from_unit(d)).unwrap_or(0)).collect()
 }
 
-/// Creates sub-patches of about `step` \[rad\]: rings of equal height, in sectors whose borders fall on right, up, left
-/// and down, so that the horizon of a façade runs between them.
+/// Creates a basis of cells with sides of about `step` \[rad\]: rings of equal height in θ, divided into sectors with
+/// borders at right, up, left and down, so that a façade's horizon runs along borders.
 pub fn sub_patches(step: f64) -> RingBasis {
     let count = (0.5 * PI / step).round().max(1.0) as usize;
     let step = 0.5 * PI / count as f64;
@@ -78,13 +84,14 @@ pub fn sub_patches(step: f64) -> RingBasis {
     RingBasis::new("sub-patches", rings, AzimuthMap::FACADE).expect("equal steps rise from 0 to 90°")
 }
 
-/// Number of sub-patches that one thread adds up at a time: fixed, so that the sum does not depend on the number of
+/// Number of sub-patches that one thread sums up at a time; constant, so that the sum does not depend on the number of
 /// threads. Chosen: cost; another number changes the last digits alone.
 const CHUNK: usize = 256;
 
-/// Computes the luminance of the emergent cells from the illuminance \[lx\] through every sub-patch.
+/// Computes the luminance of the room side on the emergent cells of the data under diffuse light. `illuminance`:
+/// illuminance of the aperture from every cell of `patches` \[lx\].
 pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellLuminance {
-    // Lobes of sub-patches that bring nothing to the sum are not worth moving.
+    // Lobes of sub-patches with a negligible share of the illuminance are left out.
     let least = 1e-9 * illuminance.iter().sum::<f64>();
     let parts: Vec<(CellLuminance, Vec<[f64; 2]>)> = illuminance
         .par_chunks(CHUNK)
@@ -97,7 +104,7 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
         light.add(&part);
         bases.iter_mut().zip(own).for_each(|(sum, x)| *sum = [sum[0] + x[0], sum[1] + x[1]]);
     }
-    // Bases stay where they are, whatever sub-patch they serve: each is drawn once, with all its light.
+    // Bases are not shifted: each is added once, with the illuminance from all its sub-patches.
     for (vertex, &[e, uncertainty]) in bases.iter().enumerate().filter(|(_, e)| e[0] > 0.0) {
         for (cell, q) in model.base(vertex).into_iter().enumerate() {
             light.luminance[cell] += e * q;
@@ -107,8 +114,8 @@ pub fn diffuse(model: &Model, patches: &RingBasis, illuminance: &[f64]) -> CellL
     light
 }
 
-/// Computes the light of the lobes from the sub-patches `first` and following; for every base also the illuminance that
-/// it answers to, and its uncertainty.
+/// Computes the luminance of the lobes under light from the sub-patches `first` and following; also the weighted
+/// illuminance by which every base is multiplied, and its uncertainty.
 fn chunk_of_diffuse(
     model: &Model,
     patches: &RingBasis,
@@ -127,9 +134,9 @@ fn chunk_of_diffuse(
             bases[base.vertex][1] += (base.linear - base.factor) * e;
         }
         for copy in &recipe.copies {
-            // The lobe lies in the same place with either flux: the doubt is its light, scaled.
+            // The lobe has the same cells with either flux, so that its uncertainty is its luminance times a factor.
             let uncertainty = copy.linear / copy.flux - 1.0;
-            // One direction a cell: sums over many sub-patches smooth what cells do not.
+            // One direction per cell is enough, because the sum over many sub-patches is smooth.
             model.moved(copy, model.grid(), 1, &mut scratch);
             for &(cell, q) in &scratch {
                 light.luminance[cell as usize] += e * q;
@@ -140,8 +147,9 @@ fn chunk_of_diffuse(
     (light, bases)
 }
 
-/// Computes the luminance of the cells of `target` (which lie within the data's own) from the sun. `points`² directions
-/// per cell.
+/// Computes the luminance of the room side on the cells of `target` (which subdivide those of the data) under direct
+/// sun. `direction`: towards the sun; `illuminance` of the aperture by the sun \[lx\]; lobes are means of `points`²
+/// directions per cell.
 pub fn sun(model: &Model, direction: Dir<Facade>, illuminance: f64, target: &Grid, points: usize) -> CellLuminance {
     let mut light = CellLuminance::dark(target.basis().len());
     let parent = parents(model.grid(), target);

@@ -1,4 +1,4 @@
-//! Analytic systems as a goniophotometer would have seen them, for tests.
+//! Analytic systems and the data that a goniophotometer would measure of them, for tests.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Indicatrices;
@@ -7,7 +7,8 @@ use crate::compute::incidence::grid::Grid;
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Lobes as (share of the incident flux, centre, standard deviation \[rad\]) and a Lambertian share.
+/// System as a function of the incident direction: lobes as (share of the incident flux, centre, standard deviation
+/// \[rad\]), and a Lambertian share.
 pub type System = fn(DVec3) -> (Vec<(f64, DVec3, f64)>, f64);
 
 /// Returns the indicatrices of a system at Tregenza's 145 directions on emergent rings of `step` degrees.
@@ -52,17 +53,17 @@ fn rings(step: usize) -> RingBasis {
     RingBasis::new("rings", list, AzimuthMap::FACADE).expect("rings of equal height rise")
 }
 
-/// Returns the share of light that gets through a pane.
+/// Returns the transmittance of a pane for an incident direction.
 fn pane(d: DVec3) -> f64 {
     0.9 * (1.0 - (1.0 - d.z).powi(5))
 }
 
-/// A clear opening seen through an instrument of 3°.
+/// Clear pane, measured with an angular resolution of 3°.
 pub fn clear(d: DVec3) -> (Vec<(f64, DVec3, f64)>, f64) {
     (vec![(pane(d), d, 3_f64.to_radians())], 0.0)
 }
 
-/// A laser-cut panel: straight and mirrored in the vertical.
+/// Laser-cut panel: an undeviated lobe and one mirrored in the vertical.
 pub fn panel(d: DVec3) -> (Vec<(f64, DVec3, f64)>, f64) {
     let [x, y] = [d.x / 1.5, d.y / 1.5];
     let t = y.abs() / (1.0 - x * x - y * y).sqrt() / 0.7;
@@ -72,14 +73,14 @@ pub fn panel(d: DVec3) -> (Vec<(f64, DVec3, f64)>, f64) {
     (lobes.into_iter().filter(|lobe| lobe.0 > 0.0).collect(), 0.0)
 }
 
-/// Horizontal grey slats, as wide as they are apart.
+/// Horizontal grey slats, as wide as their spacing.
 pub fn slats(d: DVec3) -> (Vec<(f64, DVec3, f64)>, f64) {
     let direct = (1.0 - d.y.abs() / d.z.max(1e-12)).max(0.0);
     let lobes = if direct > 0.0 { vec![(direct, d, 3_f64.to_radians())] } else { vec![] };
     (lobes, 0.3 * (1.0 - direct))
 }
 
-/// An opal pane.
+/// Opal pane: Lambertian transmission.
 pub fn opal(d: DVec3) -> (Vec<(f64, DVec3, f64)>, f64) {
     (vec![], 0.5 * pane(d))
 }

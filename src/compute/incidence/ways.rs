@@ -1,4 +1,5 @@
-//! Method by which the indicatrices within each triangle of the lattice are made, and the figures that decide it.
+//! Interpolation within each triangle of incident directions: the treatment of its lobes, and the figures that decide
+//! it.
 
 use super::left_out::{Errors, LeftOut};
 use super::model::Model;
@@ -7,53 +8,58 @@ use crate::compute::direction::Dir;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Share of the corners' flux below which lobes do not decide. One in a thousand is not seen. Chosen: affects the
-/// treatment that is shown, no light.
+/// Share of the flux at the corners of a triangle below which lobes do not decide the treatment. Chosen: affects the
+/// treatment that is shown, no light; one in a thousand is not visible.
 const LEAST: f64 = 1e-3;
 
-/// Treatment of the lobes within a triangle.
+/// Treatment of the lobes of indicatrices in the interpolation within a triangle of incident directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Way {
-    /// Moved lobes: every lobe of a corner is found at the two others, and moved between them.
+    /// Shifted lobes: every lobe at a corner has a counterpart at the two other corners, and its centre is shifted
+    /// between them.
     Moved,
-    /// Fading lobes: some lobe is missing at a corner; the others are moved, this one fades on its way there.
+    /// Fading lobes: at least one lobe has no counterpart at a corner; its flux decreases towards that corner, the
+    /// other lobes are shifted.
     Faded,
-    /// Blended bases: no corner has a lobe.
+    /// Blended bases: no corner has a lobe; the smooth indicatrices are added with barycentric weights.
     Blended,
-    /// No light: nothing gets through at any corner.
+    /// No light: τ is 0 at all corners.
     Dark,
 }
 
 impl Way {
-    /// All treatments, in the order of a legend.
+    /// All treatments, in the order of the legend.
     pub const ALL: [Self; 4] = [Self::Moved, Self::Faded, Self::Blended, Self::Dark];
 }
 
-/// Triangle of the lattice, with the figures that decide how light is interpolated in it.
+/// Triangle of three neighbouring incident directions, with the figures that decide how indicatrices are interpolated
+/// in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Triangle {
-    /// Incident directions at its corners, façade frame.
+    /// Incident directions at its corners as unit vectors, façade frame.
     pub corners: [DVec3; 3],
-    /// Treatment of the lobes.
+    /// Treatment of the lobes within the triangle.
     pub way: Way,
-    /// Number of lobes at each corner.
+    /// Number of lobes of the indicatrix at each corner.
     pub lobes: [usize; 3],
-    /// Share of the scattered flux of the corners that is in lobes.
+    /// Share of the flux of the three indicatrices that is in lobes, 0 … 1.
     pub in_lobes: f64,
-    /// Share of that flux whose lobe is found at both other corners.
+    /// Share of the flux in lobes whose lobe has counterparts at both other corners, 0 … 1.
     pub followed: f64,
-    /// Largest movement of a lobe from one corner to another. \[rad\]
+    /// Largest angle between the centres of corresponding lobes at two corners. \[rad\]
     pub travel: f64,
-    /// Share of flux that each scheme is stated to misplace in the triangle's middle, in the order of
-    /// [`SunScheme::ALL`].
+    /// Stated uncertainty of each scheme in the triangle's middle, in the order of [`SunScheme::ALL`]: share of the
+    /// transmitted flux that it sends in wrong directions.
     pub stated: Errors,
 }
 
-/// Returns all triangles of a model, in the order of its lattice.
+/// Returns all triangles of a model's incident directions, in the order of its triangulation. `left_out`:
+/// cross-validation of the same model.
 pub fn triangles(model: &Model, left_out: &LeftOut) -> Vec<Triangle> {
     model.lattice.triangles().par_iter().map(|vertices| triangle(model, left_out, *vertices)).collect()
 }
 
+/// Computes the treatment and the figures of the triangle between three incident directions, given by index.
 fn triangle(model: &Model, left_out: &LeftOut, vertices: [usize; 3]) -> Triangle {
     let points = model.lattice.points();
     let corners = vertices.map(|v| points[v]);

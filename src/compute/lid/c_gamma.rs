@@ -1,4 +1,5 @@
-//! The luminous-intensity distribution as luminaire files hold it: C-planes and γ angles (photometry of type C).
+//! Luminous-intensity distribution of an aperture as a table of C-planes and γ angles (photometry of type C), the form
+//! of luminaire files.
 //!
 //! Two orientations, both with C counted counter-clockwise seen from above and γ from the nadir:
 //!
@@ -6,9 +7,9 @@
 //!  Mounted (façade as built): nadir = −y_F, C0 = −z_F (into the room), C90 = −x_F
 //!  Down    (normal at nadir): nadir = −z_F, C0 = +x_F, C90 = +y_F.  A roof aperture really hangs so.
 //! ```
-//! Every value is the mean of the intensity over the solid angle nearest to its node, ∫I dω / Ω, never the intensity
-//! at the node: point values of narrow lobes lose or gain flux, up to a factor of two and more for a lobe of half a
-//! step. The table is then scaled so that the flux a reader finds by the usual zonal sum is the flux of the aperture.
+//! Every value is the mean of the intensity over the solid angle nearest to its node, ∫I dω / Ω, never the intensity at
+//! the node: point values of narrow lobes lose or gain flux, up to a factor of two and more for a lobe of half a step.
+//! The table is then scaled so that the usual zonal sum of its values equals the luminous flux of the aperture.
 
 mod averaged;
 mod cells;
@@ -25,17 +26,19 @@ use crate::compute::estimate::Estimate;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Orientation of the aperture's frame in the luminaire's frame.
+/// Orientation of an aperture as a luminaire: how the C-γ system of its luminaire file (γ from the nadir) lies in the
+/// façade frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Aim {
-    /// Orientation as built into a façade: nadir down the façade, C0 into the room.
+    /// Luminaire in a façade as built: the nadir (γ = 0) points down the façade, C0 into the room.
     Mounted,
-    /// Orientation with the outward normal up: the opening is horizontal and emits downwards.
+    /// Luminaire with the outward normal of the aperture up: the aperture is horizontal and emits downwards.
     Down,
 }
 
 impl Aim {
-    /// Returns the real orientation of an aperture in this surface.
+    /// Returns the orientation as built of an aperture in this surface: [`Self::Mounted`] in a façade, [`Self::Down`]
+    /// in a roof.
     pub fn of(surface: Surface) -> Self {
         match surface {
             Surface::Facade => Self::Mounted,
@@ -43,7 +46,7 @@ impl Aim {
         }
     }
 
-    /// Returns the direction of propagation in the aperture's frame for C and γ. \[rad\]
+    /// Returns the direction of propagation, in the façade frame, for the angles C and γ of this orientation. \[rad\]
     pub fn direction(self, c: f64, gamma: f64) -> Emergent {
         let (sin_c, cos_c) = c.sin_cos();
         let (sin_gamma, cos_gamma) = gamma.sin_cos();
@@ -53,7 +56,7 @@ impl Aim {
         }))
     }
 
-    /// Returns C (0 ≤ C < 2π) and γ of a direction of propagation. \[rad\]
+    /// Returns the angles C (0 ≤ C < 2π) and γ (0 … π) of a direction of propagation in this orientation. \[rad\]
     pub fn angles(self, emergent: Emergent) -> (f64, f64) {
         let v = emergent.0.vector();
         // Components along C0, along C90 and along the nadir.
@@ -65,14 +68,14 @@ impl Aim {
     }
 }
 
-/// Distance of neighbouring nodes, the same in C and γ: a whole fraction of 90°, so that the façade's plane and the
+/// Angular step of a C-γ table, the same in C and γ: 90° divided by a whole number, so that the façade's plane and the
 /// horizon are lines of nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Step {
     per_quarter: usize,
 }
 
-/// A step that no file can hold.
+/// Error of an angular step that a C-γ table cannot have.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("step {degrees}° does not divide 90° or lies outside 1° to 15° (try 5, 2.5 or 1)")]
 pub struct StepError {
@@ -81,13 +84,16 @@ pub struct StepError {
 }
 
 impl Step {
-    /// Step of 2.5°: 144 planes of 73 angles. Chosen; the mean over a cell flattens a cosine by less than Δ²/12 =
-    /// 1.6e-4.
+    /// Default step of 2.5°: 144 C-planes of 73 γ angles. Chosen; the mean over a cell flattens a cosine by less than
+    /// Δ²/12 = 1.6e-4.
     pub const NORMAL: Self = Self { per_quarter: 36 };
-    /// Step of 1°, the finest that is accepted: 360 planes of 181 angles, the limit of some readers of EULUMDAT.
+    /// Finest accepted step of 1°: 360 C-planes of 181 γ angles, the limit of some readers of EULUMDAT.
     pub const FINE: Self = Self { per_quarter: 90 };
 
-    /// Creates a step of 1° to 15° that divides 90°.
+    /// Creates a step from degrees, 1° to 15°.
+    ///
+    /// # Errors
+    /// Returns an error if `degrees` lies outside 1° to 15° or does not divide 90°.
     pub fn from_degrees(degrees: f64) -> Result<Self, StepError> {
         let parts = 90.0 / degrees;
         let whole = parts.round();
@@ -97,8 +103,8 @@ impl Step {
         Ok(Self { per_quarter: whole as usize })
     }
 
-    /// Chooses the step from the data: fine for a beam and for cells narrower than 5° (seen from the middle of their
-    /// ring), normal otherwise.
+    /// Returns the step for the table of a distribution: [`Self::FINE`] if it has beams or emergent cells in rings
+    /// narrower than 5°, otherwise [`Self::NORMAL`].
     pub fn for_lid(lid: &Lid) -> Self {
         let narrow = lid.parts.iter().any(|part| match part {
             EmergentLuminance::Cells { basis, .. } => basis
@@ -110,7 +116,7 @@ impl Step {
         if narrow || lid.beam_flux() > 0.0 { Self::FINE } else { Self::NORMAL }
     }
 
-    /// Returns the step. \[°\]
+    /// Returns the angular step in degrees. \[°\]
     pub fn degrees(self) -> f64 {
         90.0 / self.per_quarter as f64
     }
@@ -120,99 +126,108 @@ impl Step {
     }
 }
 
-/// Luminous intensities at C = 0, step, … < 360° and γ = 0, step, … 180°, and at more of them where narrow beams go.
+/// Table of luminous intensities of an aperture at C = 0, step, … < 360° and γ = 0, step, … 180°, with additional nodes
+/// in the directions of narrow beams. Every value is the mean over the solid angle nearest to its node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CGammaTable {
-    /// Orientation of the aperture in the table.
+    /// Orientation of the C-γ system in the aperture's frame.
     pub aim: Aim,
-    /// Step in C and γ, away from beams.
+    /// Step in C and γ outside the directions of narrow beams.
     pub step: Step,
-    /// C of the planes, from 0, 2π not repeated. \[rad\]
+    /// Angles C of the planes, rising from 0; 2π is not repeated. \[rad\]
     pub c: Vec<f64>,
-    /// Angles γ in a plane, from 0 to π. \[rad\]
+    /// Angles γ in every plane, rising from 0 (nadir) to π. \[rad\]
     pub gamma: Vec<f64>,
-    /// Luminous intensities, plane by plane, γ rising. \[cd\]
+    /// Luminous intensities, `[plane · gamma.len() + angle]`, beams included. \[cd\]
     pub intensity: Vec<f64>,
-    /// Flux of the aperture: exact for uniform light, cells and bands, integrated for functions. \[lm\]
+    /// Luminous flux of the aperture, beams included: exact for components with uniform luminance, on cells and by
+    /// profile angle, integrated numerically for functions. \[lm\]
     pub flux: Estimate,
-    /// Factor by which the averages were multiplied to make the zonal sum of the table equal to `flux`: what the
-    /// quadrature missed of a known flux, and the zonal sum's own constant (1/cos(step/2) for smooth light).
+    /// Factor by which the mean intensities were multiplied so that the zonal sum of the table equals `flux`. It
+    /// corrects the quadrature where the flux is known exactly, and the systematic deviation of a zonal sum
+    /// (1/cos(step/2) for smooth distributions).
     pub scaled_by: f64,
-    /// Flux of the unscattered beams in the table. \[lm\]
+    /// Luminous flux of the unscattered beams in the table. \[lm\]
     pub beam_flux: f64,
-    /// The part of `intensity` that is unscattered beams; empty without any. \[cd\]
+    /// Share of the beams in `intensity`, in the same order; empty without beams. \[cd\]
     pub beams: Vec<f64>,
-    /// Widening of these beams; `None`: every beam is spread over the four nodes round it.
+    /// Widening of the beams to the size of the lit area; `None` if every beam is spread over the four nodes around it.
     pub widened: Option<Widened>,
 }
 
-/// Beams that are as wide as what they light.
+/// Widening of the beams in a table: each covers the directions from the tile's centre to the area that the tile
+/// lights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Widened {
-    /// Size of the lit area, largest of all beams. \[m\]
+    /// Size of the beam's cross-section along x_F and y_F at the aperture, the largest of all beams. \[m\]
     pub size: [f64; 2],
-    /// Distance at which that size holds, from the nearest to the farthest. \[m\]
+    /// Distances from the tile's centre to the lit area for which the beams were widened, smallest and largest of all
+    /// beams. \[m\]
     pub distance: [f64; 2],
-    /// Finest distance of the nodes in C, on the sphere, and in γ. \[rad\]
+    /// Smallest step of the additional nodes in C (as an arc on the unit sphere) and in γ. \[rad\]
     pub step: [f64; 2],
 }
 
-/// Largest intensity of a table and its direction.
+/// Largest luminous intensity of a C-γ table and its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
-    /// Mean over the solid angle that belongs to the table's node. \[cd\]
+    /// Largest luminous intensity, a mean over the solid angle nearest to the table's node. \[cd\]
     pub intensity: f64,
-    /// Angle C of the plane, 0 ≤ C < 2π. \[rad\]
+    /// Angle C of the direction of the largest intensity, 0 ≤ C < 2π. \[rad\]
     pub c: f64,
-    /// Angle γ from the nadir. \[rad\]
+    /// Angle γ of the direction of the largest intensity, from the nadir. \[rad\]
     pub gamma: f64,
 }
 
-/// Largest intensities of an aperture, as its luminaire file holds them.
+/// Largest luminous intensities of an aperture in the C-γ table of its luminaire file, for scattered light and for
+/// beams.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peaks {
-    /// Scattered light alone; `None` where there is none.
+    /// Largest intensity of the scattered light, without beams; `None` if there is none.
     pub scattered: Option<Peak>,
-    /// The strongest beam with the scattered light at its place; `None` without beams.
+    /// Largest intensity of beam and scattered light together in the direction of the strongest beam; `None` without
+    /// beams.
     pub beam: Option<Peak>,
-    /// Step of the table of these intensities; that of a beam depends on it, because the table spreads the beam.
+    /// Angular step of the table; the intensity of a beam depends on it, because the table spreads the beam over
+    /// neighbouring nodes.
     pub step: Step,
 }
 
 impl Peaks {
-    /// Returns the largest intensities in the table that a luminaire file of this aperture holds.
+    /// Returns the largest intensities in the C-γ table that a luminaire file of this aperture contains.
     pub fn of(lid: &Lid) -> Self {
         CGammaTable::new(lid, Aim::of(lid.surface), Step::for_lid(lid)).peaks()
     }
 }
 
 impl CGammaTable {
-    /// Averages a distribution over the cells of the table; every beam is spread over the four nodes round it.
+    /// Creates the table of a distribution from its means over the solid angles around the nodes; every beam is spread
+    /// over the four nodes around it.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
         Averaged::new(lid, aim, step).table()
     }
 
-    /// Number of C-planes, C = 360° not repeated.
+    /// Returns the number of C-planes; C = 360° is not repeated.
     pub fn planes(&self) -> usize {
         self.c.len()
     }
 
-    /// Number of γ angles.
+    /// Returns the number of γ angles in every plane.
     pub fn angles(&self) -> usize {
         self.gamma.len()
     }
 
-    /// Intensities of one plane, γ from 0 to 180°. \[cd\]
+    /// Returns the luminous intensities of the C-plane with index `plane`, γ from 0 to 180°. \[cd\]
     pub fn plane(&self, plane: usize) -> &[f64] {
         &self.intensity[plane * self.angles()..][..self.angles()]
     }
 
-    /// Returns the intensities as a reader of luminaire files takes them.
+    /// Returns the intensities for interpolation between the nodes, as programs that read luminaire files interpolate.
     pub fn intensities(&self) -> Intensities {
         Intensities { c: self.c.clone(), gamma: self.gamma.clone(), values: self.intensity.clone() }
     }
 
-    /// Replaces the nodes by others, the old ones among them; what a reader interpolates does not change.
+    /// Replaces the nodes by a superset of them; the linear interpolation between the nodes does not change.
     fn at_nodes(&mut self, c: Vec<f64>, gamma: Vec<f64>) {
         let known = Intensities {
             c: std::mem::take(&mut self.c),
@@ -223,7 +238,7 @@ impl CGammaTable {
         (self.c, self.gamma) = (c, gamma);
     }
 
-    /// Scales the intensities so that the zonal sum is the table's flux again.
+    /// Scales the intensities so that the zonal sum equals the flux of the table again.
     fn close(&mut self) {
         let read = self.zonal_flux();
         if read != 0.0 && self.flux.value != 0.0 {
@@ -231,11 +246,11 @@ impl CGammaTable {
         }
     }
 
-    /// Returns the strongest scattered light and the strongest beam.
+    /// Returns the largest intensity of the scattered light and that of the beams, with their directions.
     pub fn peaks(&self) -> Peaks {
         let beam = |node: usize| self.beams.get(node).copied().unwrap_or(0.0);
         let strongest = |value: &dyn Fn(usize) -> f64| {
-            // Of equal ones the first: the plane that is named does not jump.
+            // Of equal intensities the first, so that the stated plane does not depend on rounding.
             let best = (0..self.intensity.len())
                 .map(|node| (node, value(node)))
                 .fold((0, 0.0), |best: (usize, f64), one| if one.1 > best.1 { one } else { best });
@@ -243,7 +258,7 @@ impl CGammaTable {
             (best.1 > 0.0).then_some(Peak { intensity: best.1, c, gamma })
         };
         Peaks {
-            // A difference of sums leaves rounding behind.
+            // The difference of two sums can leave rounding instead of 0.
             scattered: strongest(&|node| {
                 let rest = self.intensity[node] - beam(node);
                 if rest > 1e-12 * self.intensity[node] { rest } else { 0.0 }
@@ -253,8 +268,8 @@ impl CGammaTable {
         }
     }
 
-    /// Returns the flux that a reader finds: each zone between two γ with the mean of its two intensities, each plane
-    /// for half the distance to its neighbours. \[lm\]
+    /// Returns the luminous flux of the table by the usual zonal sum: each zone between two γ has the mean of its two
+    /// intensities, each plane counts for half the distance to its neighbours. \[lm\]
     pub fn zonal_flux(&self) -> f64 {
         let (planes, zones) = weights(&self.c, &self.gamma);
         let of = |(plane, weight): (usize, &f64)| {
@@ -264,7 +279,7 @@ impl CGammaTable {
     }
 }
 
-/// Returns the weights of planes and angles in a zonal sum.
+/// Returns the weights of C-planes \[rad\] and γ angles (differences of cosines) in a zonal sum.
 fn weights(c: &[f64], gamma: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let planes = c.len();
     let turn = 2.0 * PI;

@@ -1,4 +1,5 @@
-//! Beams of direct sun behind a system that is computed for single directions, as means over the disc.
+//! Beams of direct sun behind a described system, whose transmission is computed for single directions: means over the
+//! sun's disc.
 
 use super::{BeamLight, Facing};
 use crate::compute::direction::{Dir, Facade};
@@ -13,23 +14,23 @@ use std::sync::OnceLock;
 /// Distance below which two directions are the same. \[rad\] Far above the rounding of unit vectors, some 1e-16, and
 /// far below the sun's disc.
 const SAME: f64 = 1e-9;
-/// Maximum length of a piece of a fan that is one beam: a fraction of the sun's own width. \[rad\] Chosen: cost; the
-/// error of such pieces is the second of [`TURNED`].
+/// Maximum angular length of a piece of a fan that counts as one beam: a fraction of the sun's width. \[rad\] Chosen:
+/// cost; the error of such pieces is the second of [`TURNED`].
 const PIECE: f64 = 0.15 * PI / 180.0;
-/// Distance within which pieces of fans are merged. \[rad\] Chosen: cost; less than a fifth of the sun's width of
-/// 0.53°, its effect is part of [`TURNED`].
+/// Angular distance within which pieces of fans are merged. \[rad\] Chosen: cost; less than a fifth of the sun's width
+/// of 0.53°, its effect is part of [`TURNED`].
 const TOGETHER: f64 = 0.1 * PI / 180.0;
-/// Remaining relative errors of redirected beams: from flat faces, whose share has kinks within the disc, and in pieces
-/// of fans; seen against closed forms of 12 rooms behind flat and curved mirror slats.
+/// Remaining relative errors of the flux of redirected beams: by flat faces, whose share has kinks within the disc, and
+/// in pieces of fans. Found by comparison with closed forms for 12 rooms behind flat and curved mirror slats.
 const TURNED: [f64; 2] = [6e-4, 1.5e-3];
-/// Numbers of pairs of directions over the disc for the straight beam through what is not a structure along an axis,
-/// tried in this order until the beam's share changes by no more than [`STANDS`]. Chosen: cost; the last change is
-/// stated as error.
+/// Numbers of pairs of directions over the disc for the undeviated beam through systems without a structure along an
+/// axis, tried in this order until the beam's share changes by no more than [`STANDS`]. Chosen: cost; the last change
+/// is stated as error.
 const SEEDS: [usize; 4] = [16, 64, 256, MOST_SEEDS];
 /// Maximum number of pairs of directions over the disc. Chosen: cost; see [`SEEDS`].
 const MOST_SEEDS: usize = 1024;
-/// Change at which the straight share counts as converged, relative to the share plus the first of [`LITTLE`]. A tenth
-/// of the median error that `tests/scenes/sharp_sun::real_geometry` allows.
+/// Change at which the undeviated share counts as converged, relative to the share plus the first of [`LITTLE`]. A
+/// tenth of the median error that `tests/scenes/sharp_sun::real_geometry` allows.
 const STANDS: f64 = 1e-4;
 /// Number of pairs of directions that replace the disc's middle where that does not represent the disc. Chosen: cost;
 /// results change within their stated error, the difference to every other pair.
@@ -48,12 +49,12 @@ const LINEAR: [f64; 2] = [2e-4, 1e-3];
 /// Shares of the light, undeviated and redirected, beside which errors do not matter. Chosen: cost; errors are stated
 /// all the same.
 const LITTLE: [f64; 2] = [0.005, 0.05];
-/// Angle within which directions may share what mirrors make of them: a tenth of the disc. \[rad\] Chosen: cost; its
-/// effect is part of [`TURNED`], which was found with it.
+/// Angle within which neighbouring directions may share one computation of redirected beams: a tenth of the disc.
+/// \[rad\] Chosen: cost; its effect is part of [`TURNED`], which was found with it.
 const ABOUT: f64 = 0.05 * PI / 180.0;
 
-/// Returns directions spread evenly over the visible part of the disc: a sunflower of `seeds` points, each with its
-/// opposite.
+/// Returns directions distributed uniformly over the visible part of the sun's disc about `sun`: a sunflower pattern of
+/// `seeds` points, each with its opposite.
 pub(super) fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<Dir<Facade>> {
     let (u, v) = sun.vector().any_orthonormal_pair();
     let edges = facing.sun_edges();
@@ -69,7 +70,7 @@ pub(super) fn disc(facing: &Facing<'_>, sun: Dir<Facade>, seeds: usize) -> Vec<D
         .collect()
 }
 
-/// Returns the places of the seeds of a sunflower whose first n fill a disc of radius √n.
+/// Returns the points of a sunflower pattern whose first n fill a disc of radius √n.
 fn sunflower() -> &'static [[f64; 2]] {
     static SEEDS_OF_ONE: OnceLock<Vec<[f64; 2]>> = OnceLock::new();
     SEEDS_OF_ONE.get_or_init(|| {
@@ -82,15 +83,15 @@ fn sunflower() -> &'static [[f64; 2]] {
     })
 }
 
-/// Whether no part of the disc is hidden.
+/// Whether no part of the sun's disc is hidden by the horizon, the skyline or the aperture's plane.
 fn is_whole(facing: &Facing<'_>, sun: Dir<Facade>) -> bool {
-    // An edge that touches it, or hides 10⁻⁵ of it, takes nothing.
+    // An edge that hides less than 10⁻⁵ of the disc is neglected.
     let free =
         |edge: &Edge| edge.normal.dot(sun.vector()) - edge.offset > 0.999 * SUN_HALF_ANGLE * edge.normal.length();
     facing.sun_edges().iter().all(free)
 }
 
-/// Returns two opposite directions on the disc's rim.
+/// Returns two opposite directions on the rim of the sun's disc, displaced along ±`aside`.
 fn rim(sun: Dir<Facade>, aside: DVec3) -> [Dir<Facade>; 2] {
     let aside = SUN_HALF_ANGLE.tan() * aside;
     [aside, -aside].map(|aside| Dir::new(sun.vector() + aside).unwrap_or(sun))
@@ -100,7 +101,8 @@ pub(super) fn cosine(name: Dir<Facade>) -> f64 {
     name.vector().z.max(0.0)
 }
 
-/// Part of the disc: its direction, its share of the disc as seen, and that share times its cosine.
+/// Part of the sun's disc: its direction, its share of the disc's solid angle, that share times its cosine of
+/// incidence, and the beams that its light becomes.
 struct Part {
     name: Dir<Facade>,
     weight: f64,
@@ -111,6 +113,7 @@ struct Part {
 }
 
 impl Part {
+    /// Computes the beams that light from the direction `name` becomes, divided into undeviated and redirected ones.
     fn new(model: &dyn OpticalModel, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
         let mut part = Self { name, weight, flux, straight: 0.0, turned: Vec::new() };
         for beam in model.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
@@ -128,8 +131,8 @@ impl Part {
     }
 }
 
-/// Divides the disc into strips of about the same profile angle, each given by its middle; `upright`: x and y
-/// exchanged.
+/// Divides directions of the sun's disc into strips of about the same profile angle, each as (middle direction, number
+/// of directions, sum of their cosines of incidence). `upright`: profile angle to the right instead of upwards.
 fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
     let angle = |name: &Dir<Facade>| {
         let v = name.vector();
@@ -148,7 +151,7 @@ fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade
     sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
 }
 
-/// Computes the sun's beams behind a system, as means over the disc.
+/// Computes the beams of direct sun behind a system, undeviated and redirected, as means over the disc.
 pub(super) fn sun_beams(model: &dyn OpticalModel, facing: &Facing<'_>) -> Vec<BeamLight> {
     let Some(sun) = facing.sun_direction().filter(|_| facing.sun_illuminance() > 0.0) else { return Vec::new() };
     if let Structure::Along { upright } = model.structure() {
@@ -169,7 +172,7 @@ pub(super) fn sun_beams(model: &dyn OpticalModel, facing: &Facing<'_>) -> Vec<Be
         return beams;
     }
     let parts: Vec<Part> = disc(facing, sun, PARTS).iter().map(asked).collect();
-    // Every other pair of directions against all of them.
+    // Error from the comparison of every other pair of directions with all pairs.
     let mean = |pairs: usize| {
         let some = parts.chunks(2).step_by(pairs).flatten();
         let count = some.clone().count().max(1);
@@ -180,9 +183,10 @@ pub(super) fn sun_beams(model: &dyn OpticalModel, facing: &Facing<'_>) -> Vec<Be
     beams
 }
 
-/// Computes the beams of the whole disc by its middle and by opposite points of its rim along `asides`, which are
-/// perpendicular to each other. Where shares are not as good as linear between them, returns the parts instead.
-/// Weighted so a mean holds for polynomials of the third degree, and the rim shows what begins to pass there.
+/// Computes the beams of the whole disc from its middle and from opposite points of its rim along `asides`, which are
+/// perpendicular to each other. Where the transmitted shares are not nearly linear between these points, returns the
+/// parts of the disc as the error. The weights are exact for polynomials of the third degree, and the rim shows light
+/// that is transmitted only there.
 fn by_middle(
     model: &dyn OpticalModel,
     facing: &Facing<'_>,
@@ -202,17 +206,17 @@ fn by_middle(
     if !stands(bent, own) {
         return Err(parts);
     }
-    // What is as good as linear the middle turns for all.
+    // The shares are nearly linear: the redirected beams of the disc's middle represent the whole disc.
     let turned = turned(facing, &parts[..1], bent[1] / own[1].max(f64::MIN_POSITIVE));
     Ok(straight(facing, sun, &parts, true, bent[0]).into_iter().chain(turned).collect())
 }
 
-/// Whether shares are known to errors that do not matter.
+/// Whether the errors of the undeviated and redirected shares are within [`LINEAR`].
 fn stands(errors: [f64; 2], shares: [f64; 2]) -> bool {
     (0..2).all(|k| errors[k] <= LINEAR[k] * (shares[k] + LITTLE[k]))
 }
 
-/// Computes the sun's beams behind a system that depends on a profile angle alone, by strips of the disc.
+/// Computes the beams of direct sun behind a system that depends on a profile angle alone, from strips of the disc.
 fn beams_by_strips(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facade>, upright: bool) -> Vec<BeamLight> {
     // Across the planes of equal profile angles.
     let across = (if upright { DVec3::Y } else { DVec3::X }).cross(sun.vector()).try_normalize();
@@ -231,7 +235,7 @@ fn beams_by_strips(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facad
             .into_iter()
             .map(|(name, weight, flux)| Part::new(model, name, weight, flux))
             .collect();
-        // Of the middle of a strip for all of it.
+        // Beams at the middle of a strip represent the whole strip.
         let flux: f64 = parts.iter().map(|part| part.flux).sum();
         let off = [0, 1].map(|k| {
             let bent = |three: &[Part]| {
@@ -240,7 +244,7 @@ fn beams_by_strips(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facad
             parts.windows(3).map(bent).sum::<f64>() / (8.0 * flux.max(f64::MIN_POSITIVE))
         });
         let shares = [0, 1].map(|k| mean(&parts, |part| part.shares()[k]));
-        // What passes at the rim alone may lie between the middles of wide strips.
+        // Light that is transmitted at the rim only may lie between the middles of wide strips.
         let missed = begins && shares[0] <= 0.0;
         if (stands(off, shares) && !missed) || round + 1 == STRIPS.len() {
             beams.extend(straight(facing, sun, &parts, whole, off[0]));
@@ -256,14 +260,15 @@ fn mean(parts: &[Part], of: impl Fn(&Part) -> f64) -> f64 {
     parts.iter().map(|part| part.flux * of(part)).sum::<f64>() / flux.max(f64::MIN_POSITIVE)
 }
 
-/// Returns the straight beam of a disc by its parts; `whole`: nothing hides any; `off`: error of the share.
+/// Returns the undeviated beam of the sun's disc from its parts; `whole`: whether no part of the disc is hidden; `off`:
+/// absolute error of the undeviated share.
 fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, off: f64) -> Option<BeamLight> {
     let normal = facing.sun?.direct_normal;
     let share = mean(parts, |part| part.straight);
     let weight: f64 = parts.iter().map(|part| part.weight).sum();
     let seen = parts.iter().map(|part| part.weight * part.straight).sum::<f64>() / weight;
-    // Where the system lets the disc's parts pass unequally, the beam's middle is not the disc's. A disc that is hidden
-    // in part is cut by what hides it, later.
+    // If the system transmits parts of the disc unequally, the beam's middle differs from the disc's. A partly hidden
+    // disc is cut by the obstruction later.
     let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.name.vector()).sum();
     (share > 0.0).then(|| BeamLight {
         to: if whole { Dir::new(centre).unwrap_or(sun) } else { sun },
@@ -275,7 +280,7 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
     })
 }
 
-/// Computes the straight beam by rising numbers of directions until its share converges.
+/// Computes the undeviated beam from rising numbers of directions until its share converges.
 fn straight_by_seeds(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
     let mut found: Option<BeamLight> = None;
     for (round, seeds) in SEEDS.into_iter().enumerate() {
@@ -303,7 +308,7 @@ fn straight_by_seeds(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Fac
     found
 }
 
-/// Returns the redirected beams; `error`: relative error of their share.
+/// Returns the redirected beams of the parts of the disc, merged; `error`: relative error of their share.
 fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
     let flux: f64 = parts.iter().map(|part| part.flux).sum();
     let mut pieces = Pieces::default();
@@ -314,8 +319,7 @@ fn turned(facing: &Facing<'_>, parts: &[Part], error: f64) -> Vec<BeamLight> {
     pieces.beams(error)
 }
 
-/// Redirected beams, merged where they fall together: sum of directions times flux, flux, whether it is a piece of a
-/// fan.
+/// Redirected beams, merged by direction: sum of directions times flux, flux, whether the beam is a piece of a fan.
 #[derive(Default)]
 struct Pieces(BTreeMap<[i64; 2], (DVec3, f64, bool)>);
 

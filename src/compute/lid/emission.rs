@@ -1,5 +1,5 @@
-//! Light that the room side of an aperture emits under a given outside: the report's eq 8 as parts that the near field
-//! can integrate each in its own exact way.
+//! Light that the room side of an aperture emits under given sky and sun: eq 8 of the IEA SHC Task 31 report, divided
+//! into components for each of which the illuminance at a sensor has an exact or error-controlled integral.
 //!
 //! Patch-averaged data (eq 12): L_o = Σ_i q(i, o) · E_i with E_i = ∫_cell L_e cosθ dω, which keeps every incident
 //! cell's flux τ_i E_i. The sun (eq 16): L_o = q(ω_S, o) · E_S.
@@ -18,47 +18,49 @@ use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Luminance on emergent cells, separately for diffuse light and sun. \[cd/m²\]
+/// Luminance of an aperture's room side on emergent cells, separately for light from the sky and for scattered
+/// sunlight. \[cd/m²\]
 #[derive(Debug, Clone)]
 pub struct CellLight {
-    /// Emergent cells, by through direction.
+    /// Emergent cells; a cell holds the reversed emergent directions ω′ = −ω_a (directions of undeviated light).
     pub basis: Arc<RingBasis>,
-    /// Luminance by light from sky, ground and skyline. \[cd/m²\]
+    /// Luminance of every cell by light from sky, ground and skyline. \[cd/m²\]
     pub diffuse: Vec<f64>,
-    /// Luminance by the sun's scattered light. \[cd/m²\]
+    /// Luminance of every cell by direct sunlight that the system scatters. \[cd/m²\]
     pub sun: Vec<f64>,
-    /// Uncertainties of `diffuse` plus `sun`, each signed and by cell: difference to a simpler interpolation between
-    /// the data, uncertainty of the place of a lobe. Independent of one another. \[cd/m²\]
+    /// Uncertainties of `diffuse` plus `sun`, independent of one another, each with a signed value per cell: for
+    /// instance the difference to a simpler interpolation between the data, or the change with a shifted lobe.
+    /// \[cd/m²\]
     pub uncertainties: Vec<Vec<f64>>,
-    /// Estimated relative error of the luminances.
+    /// Estimated relative numerical error of the luminances.
     pub relative_error: f64,
 }
 
-/// Luminance by profile angle: q times illuminance.
+/// Luminance of an aperture's room side by profile angle: luminance coefficients q times illuminance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BandLight {
-    /// Luminance coefficients q by profile angle.
+    /// Luminance coefficients q \[1/sr\] by profile angle of the reversed emergent direction.
     pub light: ProfileLight,
-    /// Illuminance of the aperture's outside, a factor of `light`. \[lx\]
+    /// Illuminance of the aperture's outside, by which the coefficients of `light` are multiplied. \[lx\]
     pub illuminance: f64,
 }
 
-/// Source of the sun's beams.
+/// Origin of the beams of direct sun behind an aperture's system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum BeamSource {
-    /// No beams: no sun, or nothing that transmits light as beams.
+    /// No beams: no sun, or a system that transmits no light as beams.
     #[default]
     None,
-    /// Description of the system, or a regular transmittance.
+    /// Optical model of a described system, or a regular transmittance.
     Described,
-    /// Extraction from patch-averaged data.
+    /// Extraction of beams from patch-averaged data (peak extraction).
     Extracted,
-    /// No extraction: direct sun stays in the patch-averaged data.
+    /// No beams extracted: direct sun is part of the patch-averaged data, blurred to their cells.
     Cells,
 }
 
 impl BeamSource {
-    /// Returns the key of the source.
+    /// Returns the key of the origin, a constant English word for data files.
     pub fn word(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -69,33 +71,35 @@ impl BeamSource {
     }
 }
 
-/// Light that an aperture emits on its room side.
+/// Light that an aperture emits on its room side, as components that add up.
 #[derive(Debug, Clone)]
 pub struct Emission {
-    /// Luminance of the Lambertian part. \[cd/m²\]
+    /// Luminance of the Lambertian component. \[cd/m²\]
     pub uniform: Estimate,
-    /// Parts on emergent cells, each with its own basis.
+    /// Luminances on emergent cells, each component with its basis.
     pub cells: Vec<CellLight>,
-    /// Scattered light that depends on a profile angle alone, on the same bands in all parts.
+    /// Scattered light that depends on a profile angle alone, with the same bands of the profile angle in all
+    /// components.
     pub bands: Vec<BandLight>,
-    /// Regular transmittance, through which the outside is seen.
+    /// Regular transmittance, through which the outside is visible undeviated; `None` if there is no regular
+    /// transmission.
     pub regular: Option<AngularTransmittance>,
-    /// Beams of the sun's light.
+    /// Beams of direct sun behind the aperture.
     pub beams: Vec<BeamLight>,
-    /// Luminaires in the aperture's place, which light the room whatever the outside.
+    /// Luminaires that replace the aperture and light the room independently of sky and sun; `None` for an aperture.
     pub lamps: Option<Arc<Lamps>>,
-    /// Illuminance of the outside face by diffuse light. \[lx\]
+    /// Illuminance of the aperture's outside by diffuse light from sky, ground and obstructions. \[lx\]
     pub incident_diffuse: Estimate,
-    /// Illuminance of the outside face by the sun. \[lx\]
+    /// Illuminance of the aperture's outside by direct sun. \[lx\]
     pub incident_sun: f64,
-    /// Source of the beams.
+    /// Origin of the beams.
     pub beam_source: BeamSource,
-    /// Sentences on the method where there was a choice.
+    /// Notes on the methods that were used where there was a choice.
     pub notes: Vec<String>,
 }
 
 impl Emission {
-    /// Creates an emission without any light.
+    /// Creates the emission of an aperture that transmits no light.
     pub fn dark() -> Self {
         Self {
             uniform: Estimate::default(),
@@ -111,7 +115,7 @@ impl Emission {
         }
     }
 
-    /// Creates the emission of luminaires in the aperture's place: nothing of the outside comes in.
+    /// Creates the emission of luminaires that replace an aperture: no light from outside is transmitted.
     pub fn lamps(lamps: Arc<Lamps>) -> Self {
         let note = format!(
             "luminaire files: {} of them, each cut into parts of a quarter of the distance, as a host takes them; sky and \
@@ -121,7 +125,8 @@ impl Emission {
         Self { lamps: Some(lamps), notes: vec![note], ..Self::dark() }
     }
 
-    /// Computes what the room side of a system emits.
+    /// Computes the light that the room side of an aperture emits, from the BSDF data of its system and the sky and sun
+    /// in front of it.
     pub fn new(btdf: &Btdf, facing: &Facing<'_>) -> Self {
         let incident_sun = facing.sun_illuminance();
         let sun_direction = facing.sun_entering().filter(|_| incident_sun > 0.0);
@@ -151,7 +156,8 @@ impl Emission {
                 emission.incident_diffuse = incident_illuminances(facing.outside, &bands(1), &frame).into_iter().sum();
             }
             Some(Scattered::Lambert(tau)) => {
-                // A constant needs the total alone; else rings of 2.5°, each with the τ of its own mean angle.
+                // A constant τ needs the total illuminance only; otherwise rings of 2.5°, each with τ at its mean
+                // angle.
                 let rings = if tau.constant().is_some() { 1 } else { 36 };
                 let basis = bands(rings);
                 let illuminance = incident_illuminances(facing.outside, &basis, &frame);
@@ -222,7 +228,7 @@ impl Emission {
         emission
     }
 
-    /// Returns the flux that leaves into the room per area, beams included. \[lm/m²\]
+    /// Returns the luminous exitance of the room side, beams included. \[lm/m²\]
     pub fn exitance(&self, facing: &Facing<'_>) -> Estimate {
         let mut sum = self.uniform * PI;
         for bands in &self.bands {
@@ -257,14 +263,14 @@ impl Emission {
         sum + Estimate::exact(self.beams.iter().map(|beam| beam.exitance).sum())
     }
 
-    /// Whether the data cause an uncertainty.
+    /// Whether the data of the system cause an uncertainty of the emitted light.
     pub fn is_uncertain(&self) -> bool {
         self.cells.iter().any(|light| !light.uncertainties.is_empty())
             || self.regular.as_ref().is_some_and(AngularTransmittance::is_estimated)
             || self.beams.iter().any(|beam| beam.uncertainty > 0.0)
     }
 
-    /// Returns the uncertainty of [`Self::exitance`] that the data cause. \[lm/m²\]
+    /// Returns the uncertainty of [`Self::exitance`] caused by the data of the system. \[lm/m²\]
     pub fn exitance_uncertainty(&self) -> f64 {
         let flux = |light: &CellLight, uncertainty: &Vec<f64>| -> f64 {
             light.basis.cells().zip(uncertainty).map(|(cell, l)| cell.projected_solid_angle() * l).sum()
@@ -272,20 +278,21 @@ impl Emission {
         let on_cells =
             |light: &CellLight| light.uncertainties.iter().map(|d| flux(light, d).powi(2)).sum::<f64>().sqrt();
         let beams: f64 = self.beams.iter().map(|beam| beam.exitance * beam.uncertainty).sum();
-        // By degrees, as a uniform outside sends it.
+        // Share of the illuminance by degree of incidence under a uniform outside.
         let even = |degree: usize| (2.0 * (degree as f64 + 0.5).to_radians()).sin() * PI / 180.0;
         let even = std::array::from_fn(|degree| self.incident_diffuse.value * even(degree));
         let through = self.regular.as_ref().map_or(0.0, |tau| tau.uncertainty_of_light(&even));
         self.cells.iter().map(on_cells).sum::<f64>() + through + beams
     }
 
-    /// Returns the luminous-intensity distribution (eq 5) of an aperture of this size. \[m\]
+    /// Returns the luminous-intensity distribution (eq 5) of an aperture with this emission and a size along x_F and
+    /// y_F. \[m\]
     pub fn lid(&self, facing: &Facing<'_>, size: [f64; 2]) -> Lid {
         self.lid_through(facing, size, vec![(1.0, facing.outside.clone())])
     }
 
-    /// Returns the luminous-intensity distribution where the outside seen through regular transmission is the mean of
-    /// several (`seen`, with their shares).
+    /// Returns the luminous-intensity distribution of an aperture of a size \[m\] along x_F and y_F, whose regular
+    /// transmission shows the weighted mean of several outsides; `seen` holds their shares.
     pub fn lid_through(&self, facing: &Facing<'_>, size: [f64; 2], seen: Vec<(f64, Outside)>) -> Lid {
         let mut parts = Vec::new();
         if self.uniform.value > 0.0 {
@@ -326,12 +333,12 @@ impl Emission {
     }
 }
 
-/// Relative error at a sensor from straightening the skewed cells of the Shirley–Chiu square; seen on the slat and
-/// fabric trees of the reference kit.
+/// Relative error of the illuminance at a sensor by replacing the skewed cells of the Shirley–Chiu square with straight
+/// ones. Found on the slat and fabric trees of the reference kit.
 const TREE_CELL_ERROR: f64 = 5e-3;
 
-/// Computes the illuminance through every finest incident cell of a tree, by midpoints of equal projected solid angle,
-/// and the error of the total, from half the density. \[lx\]
+/// Computes the illuminance of the aperture from every finest incident cell of a tensor tree, by midpoints of equal
+/// projected solid angle, and the error of the total, estimated with half the density. \[lx\]
 fn tree_illuminances(tree: &TensorTree, facing: &Facing<'_>) -> (Vec<f64>, f64) {
     let grid = tree.incident_grid();
     let fine = (128 / tree.incident_resolution()).max(2);

@@ -1,21 +1,23 @@
-//! Luminous intensities at nodes of C and γ, as readers of luminaire files take them: linear between the nodes.
+//! Luminous intensities at nodes of C and γ with linear interpolation between them, as in programs that read luminaire
+//! files.
 
-/// Luminous intensities at nodes of C and γ.
+/// Luminous-intensity distribution as values at nodes of C and γ (photometry of type C), linear between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Intensities {
-    /// Planes, rising, 360° not repeated; or one for all. \[rad\]
+    /// Angles C of the planes, rising, 360° not repeated; a single plane holds for all C. \[rad\]
     pub c: Vec<f64>,
-    /// Angles in a plane, rising. \[rad\]
+    /// Angles γ from the nadir in every plane, rising. \[rad\]
     pub gamma: Vec<f64>,
-    /// Luminous intensities, plane by plane. \[cd\]
+    /// Luminous intensities, `[plane · gamma.len() + angle]`. \[cd\]
     pub values: Vec<f64>,
 }
 
 impl Intensities {
-    /// Returns the luminous intensity, linear between the nodes; 0 beyond the first and the last γ. \[cd\]
+    /// Returns the luminous intensity at the angles `c` and `gamma` \[rad\], linear between the nodes; 0 outside the
+    /// first and the last γ. \[cd\]
     pub fn at(&self, c: f64, gamma: f64) -> f64 {
         let (Some(first), Some(last)) = (self.gamma.first(), self.gamma.last()) else { return 0.0 };
-        /// Tolerance at the first and the last γ. \[rad\] Rounding must not make the nadir dark.
+        /// Tolerance at the first and the last γ, so that rounding does not make the nadir dark. \[rad\]
         const SLACK: f64 = 1e-9;
         if !(gamma >= first - SLACK && gamma <= last + SLACK) {
             return 0.0;

@@ -1,5 +1,6 @@
-//! Light that an aperture emits when the data are known at single incident directions only: sky and ground in
-//! sub-patches finer than these directions, the sun exactly where it is, each through an interpolated indicatrix.
+//! Light that an aperture emits if the data of its system are indicatrices at single incident directions: light of sky
+//! and ground from sub-patches finer than the spacing of these directions, and of the sun from its exact direction,
+//! each with an interpolated indicatrix.
 
 use super::{BeamLight, BeamSource, CellLight, Emission, Facing};
 use crate::compute::basis::RingBasis;
@@ -15,54 +16,57 @@ use crate::compute::sky::{Frame, incident_illuminances_within};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Minimum and maximum width of the sub-patches of sky and ground, which are as wide as lobes' standard deviations (a
-/// lobe is 7 of them across). Wider ones would show as rings behind narrow lobes. \[rad\] Chosen: cost at the minimum,
-/// 13 000 sub-patches; at the maximum a uniform sky stays uniform within 3 % (the test
+/// Minimum and maximum width of the sub-patches of sky and ground, which have the width of the lobes' standard
+/// deviation (a lobe's diameter is 7 of them). Wider ones would be visible as rings behind narrow lobes. \[rad\]
+/// Chosen: cost at the minimum, 13 000 sub-patches; at the maximum a uniform sky stays uniform within 3 % (the test
 /// `incidence::tests::a_uniform_outside_through_a_clear_opening_stays_uniform`).
 const SUB_PATCH: [f64; 2] = [1.25 * PI / 180.0, 2.5 * PI / 180.0];
 /// Number of emergent cells across a lobe below which cells under the sun are divided, down to [`SUN_CELL`]: two per
-/// standard deviation of a lobe that is 7 of them across.
+/// standard deviation of a lobe whose diameter is 7 of them.
 const ACROSS: f64 = 14.0;
 /// Minimum width of divided emergent cells under the sun. \[rad\] Chosen: cost, 12 000 cells; what division changes is
 /// stated as uncertainty.
 const SUN_CELL: f64 = 1.3 * PI / 180.0;
-/// Points per side of a cell at which a lobe of the sun is evaluated.
+/// Number of points per side of a cell at which a lobe is evaluated under the sun.
 const SUN_POINTS: usize = 2;
 
-/// Returns the emergent cells for the sun's light: the data's own, divided where they are wide.
+/// Returns the emergent cells for scattered sunlight: those of the data, divided where they are wide compared with the
+/// lobes.
 fn sun_grid(model: &Model) -> Grid {
     let basis = model.grid().basis();
     let mean = (2.0 * PI / basis.len() as f64).sqrt();
-    // Wide lobes need no more than some cells across.
+    // Wide lobes need only a few cells across.
     let needed = (ACROSS * mean / model.narrowest_lobe()).min(mean / SUN_CELL);
     let parts = needed.ceil().clamp(1.0, 4.0) as usize;
     if parts == 1 { model.grid().clone() } else { Grid::new(&basis.refined(parts)) }
 }
 
-/// Model of one set of indicatrices, independent of sky and sun.
+/// Interpolation model of one set of indicatrices with the emergent cells for scattered sunlight, independent of sky
+/// and sun.
 pub struct Interpolator {
     model: Model,
     sun_grid: Grid,
 }
 
 impl Interpolator {
-    /// Splits the indicatrices and follows their lobes.
+    /// Creates the interpolation model of measured indicatrices.
     pub fn new(data: Arc<Indicatrices>) -> Self {
         let model = Model::new(data);
         Self { sun_grid: sun_grid(&model), model }
     }
 
-    /// Returns the emergent cells for the sun's light.
+    /// Returns the emergent cells for scattered sunlight, which subdivide those of the data.
     pub fn sun_grid(&self) -> &Grid {
         &self.sun_grid
     }
 
-    /// Returns the model of the indicatrices.
+    /// Returns the interpolation model of the indicatrices.
     pub fn model(&self) -> &Model {
         &self.model
     }
 
-    /// Computes the light of sky and ground by a scheme, with a note on the method.
+    /// Computes the illuminance of the aperture by sky and ground, and the luminance of its room side by a scheme, with
+    /// a note on the method.
     fn diffuse(&self, scheme: DiffuseScheme, facing: &Facing<'_>) -> (Estimate, CellLuminance, String) {
         let model = self.model();
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
@@ -102,7 +106,8 @@ impl Interpolator {
         (total, superpose::diffuse(model, &patches, &values), note)
     }
 
-    /// Computes the light of the sun by a scheme, with a note on the method.
+    /// Computes the luminance of the room side under the sun by a scheme, with a note on the method. `illuminance`: of
+    /// the aperture by the sun \[lx\].
     fn sun(&self, scheme: SunScheme, direction: Dir<Facade>, illuminance: f64) -> (CellLuminance, String) {
         let model = self.model();
         let mut light = superpose::sun(model, direction, illuminance, &self.sun_grid, SUN_POINTS);
@@ -123,7 +128,8 @@ impl Interpolator {
 }
 
 impl Emission {
-    /// Computes what the room side of a system emits, interpolated between its incident directions.
+    /// Computes the light that the room side of an aperture emits, with indicatrices interpolated between the incident
+    /// directions of the data by a scheme for the sun and one for diffuse light.
     pub fn interpolated(
         btdf: &Btdf,
         interpolator: &Interpolator,

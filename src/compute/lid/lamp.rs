@@ -1,5 +1,6 @@
-//! Luminaire as other programs take it: a luminous area, cut into parts of at most a quarter of their distance, each of
-//! them a point with the whole distribution; intensities between the nodes by interpolation in C and γ.
+//! Luminaire with the usual computation of lighting programs: a luminous area, divided into parts of at most a quarter
+//! of their distance, each of which is a point source with the intensity distribution of the whole; intensities between
+//! the nodes of C and γ by linear interpolation.
 
 use super::c_gamma::Aim;
 use super::intensities::Intensities;
@@ -8,30 +9,30 @@ use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use glam::DVec3;
 use std::sync::Arc;
 
-/// Luminous area in the room.
+/// Luminaire in the room: a rectangular luminous area with a luminous-intensity distribution.
 #[derive(Debug, Clone)]
 pub struct Lamp {
-    /// Position and size of the area.
+    /// Position and size of the luminous area.
     pub tile: Tile,
-    /// Surface that the area lies in.
+    /// Surface of the room that the area lies in.
     pub surface: Surface,
-    /// Orientation of the table in the surface.
+    /// Orientation of the C-γ system relative to the surface.
     pub aim: Aim,
     /// Luminous flux of the luminaire. \[lm\]
     pub flux: f64,
-    /// Luminous-intensity distribution.
+    /// Luminous-intensity distribution of the luminaire. \[cd\]
     pub table: Arc<Intensities>,
 }
 
 impl Lamp {
-    /// Returns the luminous intensity in a direction of propagation. \[cd\]
+    /// Returns the luminous intensity of the luminaire in a direction of propagation, façade frame. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         let (c, gamma) = self.aim.angles(emergent);
         self.table.at(c, gamma)
     }
 
-    /// Returns the illuminance at a point that faces `normal`, room frame. \[lx\] Nothing reaches points in or behind
-    /// its plane.
+    /// Returns the direct illuminance by the luminaire at a point with the surface normal `normal`, both in the room's
+    /// frame. \[lx\] Points in or behind the plane of the luminous area receive no light.
     pub fn illuminance(&self, position: DVec3, normal: DVec3) -> f64 {
         let Tile { centre, size } = self.tile;
         let to = self.surface.facade_from_room(position - centre);
@@ -57,27 +58,29 @@ impl Lamp {
     }
 }
 
-/// Luminaires that replace an aperture.
+/// Luminaires that together replace an aperture.
 #[derive(Debug, Clone)]
 pub struct Lamps {
-    /// All luminaires of the aperture.
+    /// Luminaires, one per tile of the aperture.
     pub list: Vec<Lamp>,
     /// Area of the aperture. \[m²\]
     pub area: f64,
 }
 
 impl Lamps {
-    /// Returns the luminous flux of all luminaires. \[lm\]
+    /// Returns the total luminous flux of the luminaires. \[lm\]
     pub fn flux(&self) -> f64 {
         self.list.iter().map(|lamp| lamp.flux).sum()
     }
 
-    /// Returns the illuminance at a point that faces `normal`, room frame. \[lx\]
+    /// Returns the direct illuminance by all luminaires at a point with the surface normal `normal`, both in the room's
+    /// frame. \[lx\]
     pub fn illuminance(&self, position: DVec3, normal: DVec3) -> f64 {
         self.list.iter().map(|lamp| lamp.illuminance(position, normal)).sum()
     }
 
-    /// Returns the mean luminance of the aperture by through direction. \[cd/m²\]
+    /// Returns the mean luminance of the replaced aperture for light that leaves in the direction −`twin` (façade
+    /// frame); `twin` is the direction of undeviated light. \[cd/m²\]
     pub fn luminance(&self, twin: Dir<Facade>) -> f64 {
         let cosine = twin.vector().z;
         if cosine <= 1e-9 {

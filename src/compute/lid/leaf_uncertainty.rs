@@ -1,5 +1,5 @@
-//! Uncertainty of the sun's light through a tensor tree: within a leaf nothing is known, and beyond its border the data
-//! may differ completely.
+//! Uncertainty of sunlight through a tensor tree: data are constant within a leaf of the tree, and may differ
+//! completely in the next one.
 
 use super::{Emission, Facing};
 use crate::compute::btdf::TensorTree;
@@ -7,14 +7,15 @@ use crate::compute::direction::{Dir, Incident};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Returns how far the sun is moved: the distance between the middles of neighbouring finest incident cells. \[rad\]
+/// Returns the displacement of the sun for the estimate: the angular distance of neighbouring finest incident cells.
+/// \[rad\]
 fn spacing(tree: &TensorTree) -> f64 {
     (PI / (tree.incident_resolution() * tree.incident_resolution()) as f64).sqrt()
 }
 
 impl Emission {
-    /// Adds the uncertainties of the sun's light through a tree: half of the larger change to the neighbour on either
-    /// side, along both axes of the façade frame.
+    /// Adds the uncertainties of the luminance by sunlight through a tensor tree: half of the larger change when the
+    /// sun is displaced by one finest incident cell to either side, along both axes of the façade frame.
     pub fn estimate_leaf_uncertainty(&mut self, tree: &TensorTree, facing: &Facing<'_>) {
         let illuminance = self.incident_sun;
         let (Some(sun), Some(light)) = (facing.sun_entering(), self.cells.first_mut()) else { return };
@@ -24,7 +25,7 @@ impl Emission {
         let step = spacing(tree);
         for axis in [DVec3::X, DVec3::Y] {
             let [before, after] = [-step, step].map(|by| {
-                // A neighbour beyond the aperture's plane stands on its border.
+                // A neighbour behind the aperture's plane is moved to the plane.
                 let moved = sun.vector() + by * axis;
                 let moved = Dir::new(moved.with_z(moved.z.max(1e-3))).unwrap_or(sun);
                 tree.sun_luminance(Incident(moved), illuminance).1

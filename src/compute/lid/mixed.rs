@@ -1,4 +1,5 @@
-//! Emissions times a factor, and weighted sums of several, for an aperture made of different parts.
+//! Emissions multiplied by a factor, and weighted sums of several, for an aperture whose parts see different outsides
+//! or states of the system.
 
 use super::Emission;
 use super::emission::{BandLight, CellLight};
@@ -7,7 +8,8 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 impl Emission {
-    /// Returns the emission with all light multiplied by `factor`, for a frame or dirt. The incident illuminances stay.
+    /// Returns the emission with all emitted light multiplied by `factor`, for a frame or dirt. The incident
+    /// illuminances do not change.
     pub fn scaled(mut self, factor: f64) -> Self {
         self.uniform = self.uniform * factor;
         for light in &mut self.cells {
@@ -20,10 +22,10 @@ impl Emission {
         self
     }
 
-    /// Returns the weighted sum of the scattered light of several emissions of one system, whose parts are of the same
-    /// kinds; undeviated light, of the sky or as beams, is left out.
+    /// Returns the weighted sum of the scattered light of several emissions of one system, which have the same
+    /// components; undeviated light from the sky and beams is left out.
     ///
-    /// Weights may be below 0, as those of an extrapolation are; light is not.
+    /// Weights may be negative (extrapolation); negative luminances in the sum are set to 0.
     pub fn mixed(parts: &[(f64, &Self)]) -> Self {
         let mut sum = Self::dark();
         for &(weight, part) in parts {
@@ -70,8 +72,8 @@ impl Emission {
         sum
     }
 
-    /// Returns the scattered light as fluxes per area by emergent cell or band, to compare emissions of one system.
-    /// \[lm/m²\]
+    /// Returns the scattered light as exitances: Lambertian component, then one per emergent cell or band of the
+    /// profile angle, to compare emissions of one system. \[lm/m²\]
     pub fn fluxes(&self) -> Vec<f64> {
         let mut fluxes = vec![PI * self.uniform.value];
         for light in &self.cells {
@@ -87,7 +89,7 @@ impl Emission {
         fluxes
     }
 
-    /// Returns the flux of the scattered light alone, per area. \[lm/m²\]
+    /// Returns the luminous exitance of the room side by scattered light alone. \[lm/m²\]
     pub fn scattered_exitance(&self) -> Estimate {
         let mut sum = self.uniform * PI;
         for light in &self.cells {

@@ -1,4 +1,5 @@
-//! Luminous-intensity distribution of an aperture: the light that its room side emits, as a luminaire would.
+//! Luminous-intensity distribution of an aperture: the light that its room side emits into the room, described like
+//! that of a luminaire.
 
 mod beams;
 pub mod c_gamma;
@@ -34,24 +35,26 @@ use crate::compute::system::measure::ProfileLight;
 use std::fmt;
 use std::sync::Arc;
 
-/// Luminance as a function of the through direction. \[cd/m²\]
+/// Luminance of an aperture's room side as a function of the direction of undeviated light ω′ = −ω_a, the reversed
+/// emergent direction ω_a (unit vector with z > 0, façade frame). \[cd/m²\]
 pub type LuminanceFunction = Arc<dyn Fn(Dir<Facade>) -> f64 + Send + Sync>;
 
-/// One part of the luminance of an aperture's room side. Parts add up.
+/// Component of the luminance of an aperture's room side, by emergent direction. The components of an aperture add up.
 #[derive(Clone)]
 pub enum EmergentLuminance {
-    /// Constant luminance in all directions. \[cd/m²\]
+    /// Luminance that is the same in all directions (Lambertian emission). \[cd/m²\]
     Uniform(f64),
-    /// Luminance per emergent cell, by through direction. \[cd/m²\]
+    /// Luminance by emergent cell; a cell holds the reversed emergent directions ω′ = −ω_a. \[cd/m²\]
     Cells {
-        /// Emergent cells.
+        /// Cells that divide the hemisphere of the reversed emergent directions.
         basis: Arc<RingBasis>,
-        /// Luminance of each cell. \[cd/m²\]
+        /// Luminance of the room side by index of emergent cell. \[cd/m²\]
         luminance: Vec<f64>,
     },
-    /// Luminance by the profile angle of the through direction; `q` holds luminances. \[cd/m²\]
+    /// Luminance by the profile angle of the reversed emergent direction ω′ = −ω_a; the field `q` holds luminances
+    /// here. \[cd/m²\]
     Bands(ProfileLight),
-    /// Continuous function: the outside seen through a system that keeps directions (eq 20).
+    /// Luminance as a continuous function: the outside seen through a system that transmits light undeviated (eq 20).
     Function(LuminanceFunction),
 }
 
@@ -67,7 +70,8 @@ impl fmt::Debug for EmergentLuminance {
 }
 
 impl EmergentLuminance {
-    /// Returns the luminance seen against an emergent direction. \[cd/m²\]
+    /// Returns the luminance of this component for light that leaves in an emergent direction; 0 for directions to the
+    /// outside. \[cd/m²\]
     pub fn at(&self, emergent: Emergent) -> f64 {
         let twin = emergent.through_name();
         if twin.vector().z <= 0.0 {
@@ -82,43 +86,45 @@ impl EmergentLuminance {
     }
 }
 
-/// Sunlight transmitted without scattering: a parallel beam (but for the disc's 0.53°), undeviated, deflected or
-/// mirrored.
+/// Beam of sunlight that an aperture transmits without scattering: parallel except for the sun's diameter of 0.53°;
+/// undeviated, deflected or mirrored.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SunBeam {
-    /// Direction in which the beam leaves.
+    /// Emergent direction of the beam, façade frame.
     pub direction: Emergent,
-    /// Luminous flux of the whole aperture's beam. \[lm\]
+    /// Luminous flux of the beam through the whole aperture. \[lm\]
     pub flux: f64,
-    /// Whether the beam is undeviated: the sun itself is seen along it.
+    /// Whether the beam is undeviated, so that the sun itself is visible along it.
     pub straight: bool,
 }
 
-/// Luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a.
+/// Luminous-intensity distribution of one aperture (eq 5): I(ω_a) = L(ω_a) · A · cosθ_a with the luminance L of its
+/// room side, its area A and the emergent direction ω_a; beams of direct sun are listed separately.
 #[derive(Debug, Clone)]
 pub struct Lid {
-    /// Surface that the aperture lies in; fixes the orientation of the façade frame in the room.
+    /// Surface of the room that the aperture lies in; fixes the orientation of the façade frame in the room.
     pub surface: Surface,
-    /// Size along x_F and along y_F. \[m\]
+    /// Size of the aperture along x_F and along y_F of the façade frame. \[m\]
     pub size: [f64; 2],
-    /// Parts of the emergent luminance.
+    /// Components of the luminance of the room side; they add up.
     pub parts: Vec<EmergentLuminance>,
-    /// Beams of unscattered sunlight.
+    /// Beams of sunlight that is transmitted without scattering.
     pub beams: Vec<SunBeam>,
 }
 
 impl Lid {
-    /// Returns the luminance of the room side against an emergent direction, beams left out. \[cd/m²\]
+    /// Returns the luminance of the room side for light that leaves in an emergent direction, without the beams.
+    /// \[cd/m²\]
     pub fn luminance(&self, emergent: Emergent) -> f64 {
         self.parts.iter().map(|part| part.at(emergent)).sum()
     }
 
-    /// Returns the luminous intensity in an emergent direction, beams left out. \[cd\]
+    /// Returns the luminous intensity of the aperture in an emergent direction, without the beams. \[cd\]
     pub fn intensity(&self, emergent: Emergent) -> f64 {
         self.luminance(emergent) * self.area() * (-emergent.0.vector().z).max(0.0)
     }
 
-    /// Returns the flux of all beams. \[lm\]
+    /// Returns the luminous flux of all beams of the aperture together. \[lm\]
     pub fn beam_flux(&self) -> f64 {
         self.beams.iter().map(|beam| beam.flux).sum()
     }

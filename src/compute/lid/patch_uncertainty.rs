@@ -1,5 +1,5 @@
-//! Uncertainty of diffuse light on patches: a luminance that changes from patch to patch changes within them, too, and
-//! a sensor sees only a part of those at the edge of an aperture.
+//! Uncertainty of patch-averaged luminances by diffuse light: a luminance that changes from patch to patch changes
+//! within them, too, and from a sensor only a part of the patches at the edge of an aperture is visible.
 
 use super::Emission;
 use crate::compute::direction::Dir;
@@ -13,8 +13,9 @@ const HALVES: f64 = 0.2;
 const MIDDLE: f64 = 0.5;
 
 impl Emission {
-    /// Adds the uncertainty of the diffuse light on the data's patches, from its change along both axes of the façade
-    /// frame. Beyond the last patches the luminance counts as constant.
+    /// Adds the uncertainty of the luminance by diffuse light on the emergent patches of the data, estimated from its
+    /// differences to neighbouring patches along both axes of the façade frame. Beyond the last patches the luminance
+    /// counts as constant.
     pub fn estimate_patch_uncertainty(&mut self) {
         let Some(light) = self.cells.first_mut() else { return };
         let value = |d: DVec3| Dir::new(d).filter(|_| d.z > 0.0).and_then(|d| light.basis.index(d));

@@ -1,4 +1,5 @@
-//! [`SkyThrough`] as a linear map from light through single patches of the outside, for thousands of skies.
+//! Response of a described system to diffuse light ([`SkyThrough`]) as emergent light per illuminance from single
+//! patches of the outside, for thousands of skies.
 
 use super::SkyThrough;
 use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, band_of};
@@ -10,31 +11,34 @@ use crate::compute::system::measure::ProfileLight;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::{Arc, OnceLock};
 
-/// Emergent light per illuminance of 1 lx through one patch.
+/// Light that leaves the room side if one patch of the outside alone illuminates the aperture with 1 lx.
 #[derive(Debug, Clone, Default)]
 pub struct PatchLight {
-    /// Emergent cells of [`SkyThrough::basis`] and their luminance by straight and redirected light. \[cd/m²\]
+    /// Indices of emergent cells of [`SkyThrough::basis`] with their luminance by undeviated and redirected light.
+    /// \[cd/m²\]
     pub cells: Vec<(usize, f64)>,
-    /// Rows of [`SkyThrough::rows`], with the illuminance that each stands for. \[lx\]
+    /// Indices of rows of [`SkyThrough::rows`] with the illuminance by which each is multiplied. \[lx\]
     pub rows: Vec<(usize, f64)>,
 }
 
-/// Rows of incidence of every patch, with the shares of its light that they stand for.
+/// Rows of incidence for every patch, with the shares of the patch's light that they represent.
 type Shares = Vec<Vec<(usize, f64)>>;
 
-/// Scattered light by rows of incidence: q per illuminance.
+/// Scattered light of a described system by row, a row per band of the incident profile angle or per incident cell:
+/// luminance coefficients q \[1/sr\].
 #[derive(Clone, Copy)]
 pub enum ScatteredRows<'a> {
     /// No scattered light.
     None,
-    /// Rows by profile angle.
+    /// One row per band of the incident profile angle, by emergent profile angle.
     Bands(&'a [ProfileLight]),
-    /// Rows on the cells of [`SkyThrough::basis`].
+    /// One row per incident cell, with q on the emergent cells of [`SkyThrough::basis`].
     Cells(&'a [Vec<f64>]),
 }
 
-/// Returns the first of the two rows by profile angle between which a direction lies, and how near it is to the second,
-/// 0 … 1. `rows`: number of rows.
+/// Returns the index of the first of the two rows between whose profile angles an incident direction lies, and the
+/// weight of the second, 0 … 1. `rows`: number of rows over −90° … 90°; `upright`: profile angle to the right instead
+/// of upwards.
 pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f64) {
     let last = rows.max(2) - 2;
     let at = (angles(upright, name).1 + FRAC_PI_2) / PI * (rows.max(2) - 1) as f64;
@@ -43,12 +47,12 @@ pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f6
 }
 
 impl SkyThrough {
-    /// Returns the cells, which are both the patches of the outside and the emergent cells.
+    /// Returns the cells that serve both as patches of the outside and as emergent cells.
     pub fn basis(&self) -> &Arc<RingBasis> {
         &self.cells
     }
 
-    /// Returns the scattered light by rows of incidence.
+    /// Returns the scattered light as one row per band of the incident profile angle or per incident cell.
     pub fn rows(&self) -> ScatteredRows<'_> {
         match &self.scattered {
             Scattered::None => ScatteredRows::None,
@@ -57,8 +61,8 @@ impl SkyThrough {
         }
     }
 
-    /// Returns, patch by patch, the shares of its light by row: `kind` 0 and 1 by profile angle, upright or not, 2 by
-    /// the incident cells, which are the same for all systems. On the usual cells each is found once.
+    /// Returns the shares of each patch's light by row. `kind`: rows by profile angle upwards (0) or to the right (1),
+    /// or by incident cell (2), which are the same for all systems. On [`sun_cells`] each kind is computed once.
     fn rows_of_patches(&self, kind: usize, row_of: impl Fn(Dir<Facade>) -> Option<usize>) -> Arc<Shares> {
         static KEPT: [OnceLock<Arc<Shares>>; 3] = [const { OnceLock::new() }; 3];
         let find = || {
@@ -78,8 +82,8 @@ impl SkyThrough {
         if Arc::ptr_eq(&self.cells, sun_cells()) { Arc::clone(KEPT[kind].get_or_init(find)) } else { find() }
     }
 
-    /// Returns the emergent light of every patch. Redirected light takes the mean luminance of the patch that it comes
-    /// from.
+    /// Returns the light that leaves the room side per illuminance from each patch of the outside. Redirected light has
+    /// the mean luminance of the patch that it comes from.
     pub fn by_patch(&self) -> Vec<PatchLight> {
         let weights = self.cells.projected_solid_angles();
         let mut patches = vec![PatchLight::default(); self.cells.len()];
@@ -118,7 +122,7 @@ impl SkyThrough {
         patches
     }
 
-    /// Returns the relative error of all light by these columns, under a uniform outside.
+    /// Returns the relative error of the exitance computed from the light per patch, under a uniform outside.
     pub fn relative_error(&self) -> f64 {
         let weights = self.cells.projected_solid_angles();
         let straight: f64 = self.straight.iter().zip(&weights).map(|(share, weight)| share * weight).sum();

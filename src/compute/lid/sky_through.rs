@@ -1,11 +1,13 @@
-//! Sky and ground through a system that is computed for single directions: what does not depend on the sky is found
-//! once.
+//! Diffuse light from sky and ground through a described system, whose transmission is computed for single directions.
+//! The part that does not depend on the sky is computed once.
 //!
-//! | part | how |
+//! | light | computation |
 //! | --- | --- |
-//! | undeviated | the flux of every patch stays in its own cell, by the mean share of the patch |
-//! | redirected | backwards: a cell's luminance is that of the outside where its light comes from, times its share |
-//! | scattered | by profile angle where it depends on that alone; else on cells, one result per incident cell |
+//! | undeviated | the flux of every patch leaves in the same cell, multiplied by the mean undeviated share of the patch
+//! |
+//! | redirected | backwards: the luminance of a cell is that of the outside where its light comes from, times its share
+//! |
+//! | scattered | by profile angle where it depends on that alone; otherwise on cells, one result per incident cell |
 //!
 //! Redirected light relies on reciprocity.
 
@@ -22,7 +24,7 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Number of directions per side of a cell for its mean share: one per degree in cells of 3°, as [`BANDS`].
+/// Number of directions per side of a cell for its mean share: one per degree in cells of 3°, the spacing of [`BANDS`].
 pub(super) const POINTS: usize = 3;
 /// Number of bands of the profile angle of incidence, 1° each. Chosen: cost; the error is in [`CELL_ERROR`].
 const BANDS: usize = 181;
@@ -32,8 +34,8 @@ const ALONG: usize = 16;
 /// Width of the bins that gather redirected light by profile angle. \[rad\] Chosen: cost; as wide as bands, and its
 /// error is [`BIN_ERROR`].
 const BIN: f64 = PI / 180.0;
-/// Angle within which directions may share what mirrors make of them: a twelfth of a cell. \[rad\] Chosen: cost; behind
-/// flat mirrors directions are off by this at most, a quarter of [`BIN`].
+/// Angle within which neighbouring directions may share one computation of redirected beams: a twelfth of a cell.
+/// \[rad\] Chosen: cost; behind flat mirrors directions are off by this at most, a quarter of [`BIN`].
 const ABOUT: f64 = 0.25 * PI / 180.0;
 /// Share below which a redirected beam is dropped. Chosen: cost; a hundred such beams are 0.1 % of the light.
 const FAINT: f64 = 1e-5;
@@ -46,10 +48,10 @@ pub(super) const CELL_ERROR: f64 = 2e-3;
 /// Additional relative error of redirected light, whose profile angles are gathered in bins; seen as [`CELL_ERROR`].
 pub(super) const BIN_ERROR: f64 = 8e-3;
 
-/// Response of a system to diffuse light from outside.
+/// Response of a described system to diffuse light from outside, for any sky.
 pub struct SkyThrough {
     pub(super) cells: Arc<RingBasis>,
-    /// Mean undeviated share per cell.
+    /// Mean undeviated share of the light from each cell.
     pub(super) straight: Vec<f64>,
     pub(super) turned: Turned,
     pub(super) scattered: Scattered,
@@ -58,32 +60,32 @@ pub struct SkyThrough {
 /// Sources of the redirected light in emergent directions.
 pub(super) enum Turned {
     None,
-    /// Sources of every emergent cell.
+    /// Sources of the redirected light in every emergent cell.
     ByCell(Vec<Vec<Source>>),
-    /// Sources by profile angle of the through direction, `BANDS` of them: profile angle and share of each source,
-    /// which has the same direction cosine along the structure.
+    /// Sources by profile angle of the reversed emergent direction, one list for each of `BANDS` bands: profile angle
+    /// \[rad\] and share of each source. A source has the direction cosine along the structure of the emergent light.
     ByProfile {
         upright: bool,
         sources: Vec<Vec<(f64, f64)>>,
     },
 }
 
-/// Direction outside that light comes from, and share of its luminance.
+/// Direction outside that redirected light comes from, and the share of its luminance that is transmitted.
 pub(super) struct Source {
     pub name: Dir<Facade>,
     pub share: f64,
 }
 
-/// Luminance coefficients q of scattered light, and the error of its share.
+/// Luminance coefficients q of scattered light \[1/sr\], and the error of its share.
 pub(super) enum Scattered {
     None,
     ByProfile { upright: bool, rows: Vec<ProfileLight> },
     ByCells { incident: RingBasis, rows: Vec<Vec<f64>>, error: f64 },
 }
 
-/// Returns the middle of a band. \[rad\]
+/// Returns the profile angle in the middle of a band. \[rad\]
 fn middle(band: usize) -> f64 {
-    // The outermost bands end at ±90°, where nothing comes from.
+    // The outermost bands are centred at ±90°, where no light comes from.
     let psi = PI * (band as f64 / (BANDS - 1) as f64) - FRAC_PI_2;
     psi.clamp(0.25 * BIN - FRAC_PI_2, FRAC_PI_2 - 0.25 * BIN)
 }
@@ -112,8 +114,8 @@ fn centre(beam: &Beam) -> DVec3 {
     beam.names[0].vector() + beam.names[1].vector()
 }
 
-/// Undeviated share of systems whose structure is endless along an axis, in layers that are the same to both sides:
-/// sharp in the profile angle, smooth along the structure.
+/// Interpolated undeviated share of systems whose structure is endless along an axis: sharp in the profile angle,
+/// smooth in the angle along the structure. Layers must be the same on both sides.
 struct StraightLattice {
     upright: bool,
     /// Undeviated shares by angle along the structure and band of the profile angle.
@@ -121,8 +123,8 @@ struct StraightLattice {
 }
 
 impl StraightLattice {
-    /// Creates the lattice; `None` where it does not suit, or where results depend on the profile angle alone, which is
-    /// quick.
+    /// Computes the shares at the nodes; `None` if the structure is not endless along an axis, or if scattering depends
+    /// on the profile angle alone, which needs no interpolation.
     fn new(model: &dyn OpticalModel) -> Option<Self> {
         let Structure::Along { upright } = model.structure() else { return None };
         if model.by_profile_alone().is_some() {
@@ -154,14 +156,15 @@ impl StraightLattice {
 }
 
 impl SkyThrough {
-    /// Computes the response of a system, in parallel; its light is put on [`sun_cells`].
+    /// Computes the response of a described system on the cells of [`sun_cells`], in parallel.
     pub fn new(model: &dyn OpticalModel) -> Self {
         Self::on(model, Arc::clone(sun_cells()))
     }
 
     /// Computes the response of a system on given cells.
     fn on(model: &dyn OpticalModel, cells: Arc<RingBasis>) -> Self {
-        // What is made once for all directions is made before many threads ask side by side, and would wait for it.
+        // Quantities that are computed once for all directions are computed first, so that parallel threads do not wait
+        // for them.
         let ahead = name_of(false, 0.0, 0.0);
         if model.profile_light(ahead, Side::Front).is_none() {
             model.scattered_through(ahead, Side::Front, &cells);
@@ -179,7 +182,8 @@ impl SkyThrough {
         Self { cells, straight, turned, scattered }
     }
 
-    /// Computes the light that an aperture emits under the diffuse light of an outside.
+    /// Computes the light that an aperture with this system emits by diffuse light from sky, ground and skyline,
+    /// without the sun.
     pub fn emission(&self, facing: &Facing<'_>) -> Emission {
         let cells = &self.cells;
         let frame = Frame::of_aperture(facing.orientation, facing.surface);
@@ -196,7 +200,7 @@ impl SkyThrough {
         }
         let relative = |e: Estimate| if e.value > 0.0 { e.error / e.value } else { 0.0 };
         let mut relative_error = relative(emission.incident_diffuse) + CELL_ERROR;
-        // Errors of single parts, as flux.
+        // Errors of the components, as flux per area.
         let mut parts = binned;
         match &self.scattered {
             Scattered::None => {}
@@ -259,7 +263,7 @@ impl Turned {
             let sources: Vec<Vec<(f64, f64)>> = (0..BANDS)
                 .into_par_iter()
                 .map(|band| {
-                    // Fans come in many pieces: those that fall together are one source.
+                    // A fan consists of many pieces: pieces with about the same profile angle become one source.
                     let mut bins = std::collections::BTreeMap::<i64, (f64, f64)>::new();
                     for beam in turned_back(model, name_of(upright, 0.0, middle(band))) {
                         let Some(name) = Dir::new(centre(&beam)) else { continue };

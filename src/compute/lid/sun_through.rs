@@ -1,4 +1,5 @@
-//! Direct sun through a system that is computed for single directions: its beams, and its scattered light.
+//! Direct sun through a described system, whose transmission is computed for single directions: beams and scattered
+//! light.
 
 use super::disc_beams::{FEW, cosine, disc, sun_beams};
 use super::{BandLight, BeamLight, BeamSource, CellLight, Emission, Facing};
@@ -11,26 +12,28 @@ use std::sync::{Arc, OnceLock};
 
 /// Width of the cells for scattered sunlight. \[rad\] Chosen: cost, 2300 cells; the error is [`CELL_ERROR`].
 const CELL: f64 = 3.0 * PI / 180.0;
-/// Relative error from the size of these cells of 3°, on planes across the room. Seen on matt slats against strips in
-/// closed form: 0.1 % there, up to 0.8 % where the opening is seen at grazing angles.
+/// Relative error of illuminances on planes across the room by the size of these cells of 3°. Found for matt slats
+/// against strips in closed form: 0.1 % there, up to 0.8 % for sensors that see the aperture at grazing angles.
 const CELL_ERROR: f64 = 3e-3;
-/// Cosine of incidence below which the disc covers a range of profile angles that scatters unevenly. At it the disc of
-/// 0.53° covers 0.53°/0.3 = 1.8° at most, two of the bands of 1°.
+/// Cosine of incidence below which scattering differs over the profile angles that the sun's disc covers. At it the
+/// disc of 0.53° covers 0.53°/0.3 = 1.8° at most, two of the bands of 1°.
 const GRAZING: f64 = 0.3;
 
-/// Returns the cells for the light of described systems: the same for all systems, so that what sensors see of them is
-/// found once.
+/// Returns the emergent cells of 3° for the light of described systems. They are the same for all systems, so that the
+/// weights of sensors for them are computed once.
 pub fn sun_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
     CELLS.get_or_init(|| Arc::new(sub_patches(CELL)))
 }
 
-/// Returns the directions of the disc over which scattered light is averaged.
+/// Returns the directions of the sun's disc over which scattered light is averaged: several at grazing incidence,
+/// otherwise its centre.
 fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
     if sun.vector().z < GRAZING { disc(facing, sun, FEW) } else { vec![sun] }
 }
 
-/// Computes the sunlight that a system scatters, where that depends on a profile angle alone.
+/// Computes the sunlight that a system scatters into the room, by emergent profile angle; `None` if it does not depend
+/// on a profile angle alone.
 fn by_profile(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<BandLight> {
     let illuminance = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
@@ -46,14 +49,15 @@ fn by_profile(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<BandLight
     }
     let mut light = mean?;
     if names.len() > 1 {
-        // A few directions stand for a disc that covers degrees of the profile angle.
+        // Near grazing incidence the disc covers several degrees of profile angle: a few directions represent it.
         let middle = model.profile_light(sun, Side::Front)?;
         light.error += middle.difference(&light);
     }
     Some(BandLight { light, illuminance })
 }
 
-/// Returns q on [`sun_cells`] of the light that a system scatters from the direction `name`, and its relative error.
+/// Returns q \[1/sr\] on [`sun_cells`] of the light that a described system scatters into the room from the incident
+/// direction `name`, and its relative error.
 pub fn scattered_of(model: &dyn OpticalModel, name: Dir<Facade>) -> (Vec<f64>, f64) {
     let light = model.scattered_through(name, Side::Front, sun_cells());
     let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
@@ -61,7 +65,8 @@ pub fn scattered_of(model: &dyn OpticalModel, name: Dir<Facade>) -> (Vec<f64>, f
     (light.transmitted, relative + CELL_ERROR)
 }
 
-/// Computes the sunlight that a system scatters, on [`sun_cells`]; `None` where it scatters nothing.
+/// Computes the luminance on [`sun_cells`] by sunlight that a system scatters into the room; `None` if it scatters
+/// nothing.
 fn scattered(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<CellLight> {
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
@@ -87,7 +92,8 @@ fn scattered(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<CellLight>
     })
 }
 
-/// Light of the sun in one position behind a system; can be kept as long as the sun stays there.
+/// Sunlight behind a described system for one position of the sun: beams and scattered light. It can be reused until
+/// the sun moves.
 pub struct SunThrough {
     illuminance: f64,
     beams: Vec<BeamLight>,
@@ -96,20 +102,21 @@ pub struct SunThrough {
 }
 
 impl SunThrough {
-    /// Computes the beams and the scattered light of a system.
+    /// Computes the beams and the scattered light behind a described system for the sun in `facing`.
     pub fn new(model: &dyn OpticalModel, facing: &Facing<'_>) -> Self {
         let bands = by_profile(model, facing);
         let cells = if bands.is_none() { scattered(model, facing) } else { None };
         Self { illuminance: facing.sun_illuminance(), beams: sun_beams(model, facing), bands, cells }
     }
 
-    /// Computes the beams of a system alone, without its scattered light.
+    /// Computes the beams behind a described system without its scattered light.
     pub fn beams_alone(model: &dyn OpticalModel, facing: &Facing<'_>) -> Self {
         let beams = sun_beams(model, facing);
         Self { illuminance: facing.sun_illuminance(), beams, bands: None, cells: None }
     }
 
-    /// Returns the directions of the disc over which scattered light is averaged, with their shares of the illuminance.
+    /// Returns the directions of the sun's disc over which scattered light is averaged (façade frame, towards the sun),
+    /// with their shares of the illuminance by the sun.
     pub fn standing_for(facing: &Facing<'_>) -> Vec<(Dir<Facade>, f64)> {
         let Some(sun) = facing.sun_direction() else { return Vec::new() };
         let names = standing_for(facing, sun);
@@ -117,24 +124,24 @@ impl SunThrough {
         names.into_iter().map(|name| (name, cosine(name) / cosines.max(f64::MIN_POSITIVE))).collect()
     }
 
-    /// Returns the beams of the sun.
+    /// Returns the beams of direct sun behind the system.
     pub fn beams(&self) -> &[BeamLight] {
         &self.beams
     }
 
-    /// Returns the scattered light where it depends on a profile angle alone.
+    /// Returns the scattered sunlight by profile angle; `None` if it does not depend on a profile angle alone.
     pub fn bands(&self) -> Option<&BandLight> {
         self.bands.as_ref()
     }
 
-    /// Returns the scattered light on [`sun_cells`], where it does not depend on a profile angle alone.
+    /// Returns the scattered sunlight on [`sun_cells`]; `None` if it depends on a profile angle alone or is 0.
     pub fn cells(&self) -> Option<&CellLight> {
         self.cells.as_ref()
     }
 }
 
 impl Emission {
-    /// Adds the sun's light through a system to `self`, which is the system's diffuse light alone.
+    /// Adds the sunlight behind a described system to this emission, which holds the light from sky and ground alone.
     pub fn add_sun_through(&mut self, through: &SunThrough) {
         self.incident_sun = through.illuminance;
         self.beams.clone_from(&through.beams);

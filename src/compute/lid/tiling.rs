@@ -1,27 +1,28 @@
-//! An aperture cut into tiles, each a luminaire of its own: other programs light a room by points, and a beam that
-//! falls from one point as narrow as the sun lights a spot where the tile lights its own outline.
+//! Division of an aperture into tiles, each a luminaire: other programs light a room by point sources, and a beam of
+//! the sun's width from one point would light a small spot, whereas the tile lights an area of its own outline.
 //!
-//! A host cuts a luminous area into parts of at most a quarter of their distance ([`parts`]) and takes each as a point
-//! with the tile's whole distribution. A beam is therefore widened to what such a part subtends at working distance
-//! ([`Panel`](super::c_gamma::Panel)): seen from the points, what their beams light there lies side by side and adds up
-//! to the outline. Sky and scattered light are wide already and stay as they are.
+//! A host program divides a luminous area into parts of at most a quarter of their distance ([`parts`]) and takes each
+//! as a point source with the intensity distribution of the tile. A beam is therefore widened to the angle that such a
+//! part subtends at the lit surface ([`Panel`](super::c_gamma::Panel)): the areas lit by the points lie side by side
+//! and add up to the tile's outline. Light of the sky and scattered light are wide enough and are not changed.
 
 use crate::compute::direction::Surface;
 use glam::DVec3;
 
-/// Maximum size of the parts into which a host program cuts an area, as a fraction of their distance. The default of
-/// Radiance's `rpict` (`-ds .25`); a part is then within (1/4)²/6 = 1 % of a point.
+/// Maximum size of the parts into which a host program (a lighting program that reads luminaire files) divides a
+/// luminous area, as a fraction of their distance from the lit point. The default of Radiance's `rpict` (`-ds .25`); a
+/// part is then within (1/4)²/6 = 1 % of a point.
 pub const PART: f64 = 0.25;
-/// Maximum number of parts along a side of an area in host programs. Chosen: cost; reached at distances below a tenth
-/// of the side.
+/// Maximum number of parts along a side of a luminous area in host programs. Chosen: cost; reached at distances below a
+/// tenth of the side.
 const MOST_PARTS: f64 = 40.0;
-/// Distance from an aperture below which nothing is examined: there every host program computes differently. \[m\]
-/// Chosen: limit of the comparison by which tiles are chosen; the files' headers state it.
+/// Distance from an aperture below which results of host programs are not compared, because they differ from program to
+/// program there. \[m\] Chosen: limit of the comparison by which tiles are chosen; the files' headers state it.
 pub const NEAREST: f64 = 1.0;
-/// Height of the work plane. \[m\] Reference plane of EN 17037.
+/// Height of the work plane above the floor: reference plane of EN 17037. \[m\]
 pub const WORK_PLANE: f64 = 0.85;
 
-/// Division of an aperture into columns along x_F and rows along y_F.
+/// Division of an aperture into tiles of equal size: columns along x_F and rows along y_F of the façade frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tiling {
     /// Number of columns along x_F.
@@ -30,17 +31,17 @@ pub struct Tiling {
     pub rows: usize,
 }
 
-/// One tile of an aperture.
+/// Position and size of one rectangular tile of an aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tile {
     /// Centre of the tile in the room's frame. \[m\]
     pub centre: DVec3,
-    /// Size along x_F and along y_F. \[m\]
+    /// Size of the tile along x_F and along y_F of the façade frame. \[m\]
     pub size: [f64; 2],
 }
 
 impl Tiling {
-    /// Whole aperture as one tile.
+    /// Tiling with the whole aperture as one tile.
     pub const WHOLE: Self = Self { columns: 1, rows: 1 };
 
     /// Returns the number of tiles.
@@ -48,20 +49,20 @@ impl Tiling {
         self.columns * self.rows
     }
 
-    /// Returns the size of one tile, for an aperture of this size. \[m\]
+    /// Returns the size of one tile along x_F and y_F, for an aperture of this size. \[m\]
     pub fn tile(self, size: [f64; 2]) -> [f64; 2] {
         [size[0] / self.columns as f64, size[1] / self.rows as f64]
     }
 
-    /// Creates the coarsest tiling of an area of this size whose tiles are no longer than `longest` in either
-    /// direction. \[m\]
+    /// Creates the coarsest tiling of an aperture of this size whose tiles are at most `longest` long along x_F and
+    /// along y_F. \[m\]
     pub fn no_longer_than(size: [f64; 2], longest: f64) -> Self {
         let count = |length: f64| ((length / longest - 1e-9).ceil().max(1.0)) as usize;
         Self { columns: count(size[0]), rows: count(size[1]) }
     }
 
-    /// Returns the tiles row by row from the lower left, seen from outside; `corner` is the aperture's lower left in
-    /// the room's frame.
+    /// Returns the tiles row by row from the lower left, seen from outside. `corner`: lower left corner of the aperture
+    /// in the room's frame; `size`: size of the aperture. \[m\]
     pub fn tiles(self, surface: Surface, corner: DVec3, size: [f64; 2]) -> Vec<Tile> {
         let own = self.tile(size);
         let centre = |k: usize| {
@@ -72,14 +73,15 @@ impl Tiling {
     }
 }
 
-/// Returns the number of parts along each side into which a host program cuts an area seen from this distance. \[m\]
+/// Returns the number of parts along each side into which a host program divides a luminous area of this size for a
+/// point at this distance. \[m\]
 pub fn parts(size: [f64; 2], distance: f64) -> usize {
     (size[0].max(size[1]) / (PART * distance.max(0.05))).ceil().clamp(1.0, MOST_PARTS) as usize
 }
 
-/// Returns the distance \[m\] that light from a point of the room travels, and the axis across which the surface lies
-/// that it meets; from above that is the work plane instead of the floor. `room`: width, depth and height of the room.
-/// \[m\]
+/// Returns the distance \[m\] from a point of the room to the surface that light in `direction` meets, and the index of
+/// the room axis perpendicular to that surface. For points above the work plane, the work plane replaces the floor.
+/// `room`: width, depth and height of the room \[m\]; all vectors in the room's frame.
 pub fn landing(room: DVec3, from: DVec3, direction: DVec3) -> (f64, usize) {
     let mut nearest = (f64::INFINITY, 0);
     for axis in 0..3 {

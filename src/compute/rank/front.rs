@@ -11,19 +11,20 @@
 use super::objective::Objective;
 use crate::compute::estimate::Estimate;
 
-/// Place of a candidate relative to the Pareto front.
+/// Position of a candidate relative to the Pareto front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// Candidate on the front.
+    /// Candidate on the Pareto front: no other dominates it.
     Front,
-    /// Candidate that cannot be distinguished from the front.
+    /// Candidate within the uncertainty of the Pareto front: whether another dominates it cannot be decided from
+    /// figures with errors.
     Grey,
-    /// Dominated candidate.
+    /// Dominated candidate: another is surely better in one objective and surely worse in none.
     Behind,
 }
 
 impl Place {
-    /// Returns the key of the place in tables; empty for those behind.
+    /// Returns the key of the position in CSV and JSON tables; empty for dominated candidates.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Front => "front",
@@ -45,7 +46,8 @@ fn dominates(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     better
 }
 
-/// Whether `a` is at least as good as `b` in all objectives and better in one, by the values without errors.
+/// Whether `a` is at least as good as `b` in all objectives and better in one, by the values alone, without their
+/// errors.
 fn excels(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     let mut better = false;
     for ((objective, a), b) in objectives.iter().zip(a).zip(b) {
@@ -57,7 +59,8 @@ fn excels(objectives: &[Objective], a: &[Estimate], b: &[Estimate]) -> bool {
     better
 }
 
-/// Returns the places of all candidates; each has a figure for every objective, in their order.
+/// Returns the position of each candidate relative to the Pareto front. `all` has one row per candidate, with one
+/// figure per objective in the order of `objectives`.
 pub fn front(objectives: &[Objective], all: &[&[Estimate]]) -> Vec<Place> {
     let n = all.len();
     let below: Vec<Vec<usize>> =

@@ -11,7 +11,8 @@ pub enum Better {
     More,
 }
 
-/// Objective of a ranking. Scale limits are in the unit of its figure.
+/// Objective of a ranking: better direction, scale limits and weight of one figure. Scale limits are in the unit of the
+/// figure.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Objective {
     /// Direction in which the figure is better.
@@ -25,20 +26,20 @@ pub struct Objective {
 }
 
 impl Objective {
-    /// Returns the utility of a value: linear between the scale limits, limited to 0 … 1.
+    /// Returns the utility of a value of the figure: linear between the scale limits, limited to 0 … 1.
     pub fn utility(&self, value: f64) -> f64 {
         ((value - self.worst) / (self.best - self.worst)).clamp(0.0, 1.0)
     }
 
-    /// Returns the utility of a figure with its error: the larger distance of the utilities at the ends of the figure's
-    /// interval.
+    /// Returns the utility of a figure with an error. The utility's error is the larger difference from the utilities
+    /// at the two ends of the figure's interval.
     pub fn utility_of(&self, figure: Estimate) -> Estimate {
         let own = self.utility(figure.value);
         let at = |value: f64| (self.utility(value) - own).abs();
         Estimate { value: own, error: at(figure.value - figure.error).max(at(figure.value + figure.error)) }
     }
 
-    /// Whether `a` is the better value, by however little.
+    /// Whether `a` is a better value of the figure than `b`, without regard to errors.
     pub fn prefers(&self, a: f64, b: f64) -> bool {
         match self.better {
             Better::Less => a < b,
@@ -46,14 +47,15 @@ impl Objective {
         }
     }
 
-    /// Whether `a` is better than `b` beyond their uncertainty: the interval of the difference excludes 0.
+    /// Whether figure `a` is better than figure `b` beyond their uncertainty: the interval of their difference excludes
+    /// 0.
     pub fn surely_prefers(&self, a: Estimate, b: Estimate) -> bool {
         self.prefers(a.value, b.value) && (a.value - b.value).abs() > a.error + b.error
     }
 }
 
-/// Computes the weighted mean of the utilities; errors are added as if all had the worse sign. `figures` are in the
-/// order of the objectives.
+/// Computes the utility of a candidate, 0 … 1: the weighted mean of the utilities of its figures, which are in the
+/// order of `objectives`. Its error is the weighted sum of their errors, as if all had the same sign.
 pub fn utility(objectives: &[Objective], figures: &[Estimate]) -> Estimate {
     let weights: f64 = objectives.iter().map(|one| one.weight).sum();
     let mut sum = Estimate { value: 0.0, error: 0.0 };

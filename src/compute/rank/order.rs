@@ -11,12 +11,13 @@ pub struct Range {
     pub last: usize,
 }
 
-/// Whether the whole interval of `a` lies above that of `b`. The errors are independent, which is why they add up.
+/// Whether `a` is above `b` beyond their uncertainty: their difference exceeds the sum of their errors.
 pub fn surely_above(a: Estimate, b: Estimate) -> bool {
     a.value - a.error > b.value + b.error
 }
 
-/// Returns the ranges of ranks, the greatest value first: \[1 + number surely better, n − number surely worse\].
+/// Returns the range of possible ranks of each of n candidates from their values; rank 1 has the greatest value. A
+/// range reaches from 1 + (number of surely greater values) to n − (number of surely smaller values).
 pub fn ranges(values: &[Estimate]) -> Vec<Range> {
     let sorted = |of: fn(&Estimate) -> f64| {
         let mut list: Vec<f64> = values.iter().map(of).collect();

@@ -6,19 +6,19 @@ use super::order::{Range, ranges};
 use super::why::{Profile, Why, difference, mean};
 use crate::compute::estimate::Estimate;
 
-/// Ranked candidate of a list.
+/// Ranked candidate: utility, range of ranks, position relative to the Pareto front, and the reasons for its rank.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranked {
     /// Utility, 0 … 1, with the uncertainty that follows from the figures' errors.
     pub utility: Estimate,
     /// Range of the possible ranks.
     pub ranks: Range,
-    /// Place relative to the Pareto front.
+    /// Position relative to the Pareto front.
     pub place: Place,
-    /// Index of the candidate with the highest utility, and the difference from it; for the best itself the second.
-    /// `None` where there is no other.
+    /// Index of the candidate with the highest utility (for that candidate itself, of the second best) and the
+    /// difference in utility from it, split by objective. `None` if there is no other candidate.
     pub to_best: Option<(usize, Why)>,
-    /// Difference from the mean of all.
+    /// Difference in utility from the mean of all candidates, split by objective.
     pub to_mean: Why,
 }
 
@@ -27,12 +27,14 @@ pub struct Ranked {
 pub struct Ranking {
     /// Candidates in the order of the input.
     pub list: Vec<Ranked>,
-    /// Indices by falling utility; of equal ones the earlier first.
+    /// Indices in `list` by falling utility; of equal utilities the earlier candidate comes first.
     pub order: Vec<usize>,
 }
 
 impl Ranking {
-    /// Ranks candidates by their figures, and by the parts that these are sums of, each in the order of the objectives.
+    /// Ranks candidates by `figures`: one row per candidate, with one figure per objective. `parts` has, for each of
+    /// these figures, the parts that it is the sum of (e.g. by groups of hours), to explain differences; empty where it
+    /// is not a sum.
     pub fn of(objectives: &[Objective], figures: &[&[Estimate]], parts: &[&[Vec<f64>]]) -> Self {
         let utilities: Vec<Estimate> = figures.iter().map(|own| utility(objectives, own)).collect();
         let profiles: Vec<Profile> = figures

@@ -3,40 +3,43 @@
 
 use super::objective::Objective;
 
-/// Values of a candidate from which differences are explained, one entry per objective.
+/// Utilities, figures and parts of figures of one candidate, from which its difference from another is explained.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     /// Utilities, 0 … 1, one per objective.
     pub utilities: Vec<f64>,
     /// Figures, one per objective, in the unit of the figure.
     pub figures: Vec<f64>,
-    /// Parts of each figure by group; empty where the figure is not a sum.
+    /// Parts of each figure by group (of hours or positions in the room), one list per objective; empty where the
+    /// figure is not a sum.
     pub parts: Vec<Vec<f64>>,
 }
 
-/// Contribution of one objective to a difference.
+/// Contribution of one objective to the difference in utility between two candidates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Share {
-    /// Weighted difference of the utilities; those of all objectives add up to the whole difference.
+    /// Weighted difference of the utilities; those of all objectives add up to the difference in utility of the two
+    /// candidates.
     pub utility: f64,
-    /// Difference of the figures.
+    /// Difference of the two candidates' figures, in the unit of the figure.
     pub figure: f64,
-    /// Difference of the figures by group; empty where the figure is not a sum.
+    /// Difference of the figures by group of hours or positions; empty where the figure is not a sum.
     pub parts: Vec<f64>,
     /// Part of the figure's difference that is in none of the groups: all of it where the figure is not a sum.
     pub rest: f64,
 }
 
-/// Difference in utility, and the contributions that it is the sum of.
+/// Difference in utility between two candidates, as the sum of the contributions of all objectives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Why {
-    /// Difference in utility, the sum of those of the shares.
+    /// Difference in utility: the sum of the contributions' `utility`.
     pub utility: f64,
-    /// Contributions, one per objective.
+    /// Contributions to the difference, one per objective.
     pub shares: Vec<Share>,
 }
 
-/// Computes the difference of `a` from `b`. Groups of a figure count where both have the same number of them.
+/// Computes the difference in utility `a` − `b` with the contribution of every objective. A figure's difference is
+/// split into groups only where both have the same number of them.
 pub fn difference(objectives: &[Objective], a: &Profile, b: &Profile) -> Why {
     let weights: f64 = objectives.iter().map(|one| one.weight).sum();
     let share = |(k, objective): (usize, &Objective)| {
@@ -51,8 +54,8 @@ pub fn difference(objectives: &[Objective], a: &Profile, b: &Profile) -> Why {
     Why { utility: shares.iter().map(|share| share.utility).sum(), shares }
 }
 
-/// Computes the mean of some profiles; a figure's parts only where all have the same number of them. `None` without
-/// profiles.
+/// Computes the mean of the utilities, figures and parts of several candidates; a figure's parts only where all have
+/// the same number of them. `None` without profiles.
 pub fn mean(all: &[&Profile]) -> Option<Profile> {
     let first = all.first()?;
     let n = all.len() as f64;

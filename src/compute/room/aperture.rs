@@ -1,35 +1,37 @@
-//! A rectangular aperture in the façade or the roof, and its view from a sensor.
+//! Rectangular aperture in the façade or the roof of a room, and its view from a sensor.
 
 use crate::compute::direction::Surface;
 use glam::DVec3;
 
-/// A rectangular opening in y = 0 (façade) or z = height (roof) of the room.
+/// Rectangular aperture in the façade (plane y = 0 of the room) or in the roof (plane z = room height).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aperture {
-    /// Surface that holds the aperture.
+    /// Surface of the room that the aperture lies in.
     pub surface: Surface,
-    /// Lower-left corner, room frame. \[m\]
+    /// Lower left corner seen from outside, in the room's frame. \[m\]
     pub corner: DVec3,
-    /// Size along x_F and along y_F. \[m\]
+    /// Size of the aperture along x_F and along y_F of the façade frame. \[m\]
     pub size: [f64; 2],
 }
 
-/// The aperture as seen from a point. In gnomonic coordinates of the through direction, `x = d·tanθ cosφ`, the opening
-/// is the rectangle `x[0]…x[1]` × `y[0]…y[1]` at distance `distance` from the point, for every point. \[m\]
+/// Aperture as seen from a point in the room, in axes parallel to the façade frame with their origin in the point: the
+/// rectangle `x[0]…x[1]` × `y[0]…y[1]` in the plane z = `distance`. \[m\] A vector from the point to the aperture is a
+/// direction of undeviated light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Limits along x_F, relative to the point. \[m\]
+    /// Limits of the aperture along x_F, relative to the point. \[m\]
     pub x: [f64; 2],
-    /// Limits along y_F, relative to the point. \[m\]
+    /// Limits of the aperture along y_F, relative to the point. \[m\]
     pub y: [f64; 2],
     /// Distance of the point from the aperture's plane, positive inside the room. \[m\]
     pub distance: f64,
-    /// Sensor's normal in the façade frame: the cosine of a through direction ω′ at the sensor is normal·ω′.
+    /// Normal of the sensor in the façade frame: light from the direction ω′ (unit vector from the point to the
+    /// aperture) has the cosine of incidence normal·ω′.
     pub normal: DVec3,
 }
 
-/// Distance inside at which a sensor in an opening's plane counts to be, as a share of the opening's shorter side.
-/// Chosen: about the share of the light that is missed; held by the test
+/// Distance behind the plane of an aperture at which a sensor in the aperture is assumed to be, as a share of the
+/// aperture's shorter side. Chosen: about the share of the light that is missed; held by the test
 /// `a_sensor_in_the_opening_sees_what_one_just_inside_sees` (1e-8).
 const JUST_INSIDE: f64 = 1e-9;
 
@@ -39,48 +41,50 @@ impl Aperture {
         self.size[0] * self.size[1]
     }
 
-    /// Returns the distance of a point from the nearest point of the opening. \[m\]
+    /// Returns the distance of a point (room's frame) from the nearest point of the aperture. \[m\]
     pub fn distance(&self, position: DVec3) -> f64 {
         let to_corner = self.surface.facade_from_room(self.corner - position);
         let beyond = |from: f64, size: f64| from.max(-(from + size)).max(0.0);
         DVec3::new(beyond(to_corner.x, self.size[0]), beyond(to_corner.y, self.size[1]), to_corner.z).length()
     }
 
-    /// Returns the four corners, counter-clockwise seen from outside, room frame. \[m\]
+    /// Returns the four corners of the aperture in the room's frame, counter-clockwise seen from outside from the lower
+    /// left. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         let u = self.surface.room_from_facade(DVec3::X) * self.size[0];
         let v = self.surface.room_from_facade(DVec3::Y) * self.size[1];
         [self.corner, self.corner + u, self.corner + u + v, self.corner + v]
     }
 
-    /// Returns the relative error that rounded coordinates leave in the solid angle of the opening from a point.
+    /// Returns the relative error of the solid angle of the aperture from a point by rounded coordinates.
     pub fn rounding(&self, position: DVec3) -> f64 {
         let largest = self.corner.abs().max(position.abs()).max_element() + self.size[0].max(self.size[1]);
         4.0 * f64::EPSILON * largest / self.size[0].min(self.size[1])
     }
 
-    /// Returns the position that a sensor counts to have: just inside for one in the opening itself, unchanged for any
-    /// other, and unchanged for one that faces perpendicularly into the room.
+    /// Returns the position with which a sensor is computed: slightly behind the aperture's plane for a sensor in the
+    /// aperture itself, otherwise unchanged; unchanged also for a sensor that faces perpendicularly into the room.
     pub fn entered(&self, position: DVec3, normal: DVec3) -> DVec3 {
         let outward = self.surface.room_from_facade(DVec3::Z);
         let holds = self.holds(self.surface.facade_from_room(self.corner - position));
         if holds && normal.dot(outward) > -1.0 { position - self.just_inside() * outward } else { position }
     }
 
-    /// Whether a point lies in the opening, given the vector from it to the corner in the façade frame.
+    /// Whether a point lies in the aperture, given the vector from it to the aperture's corner in the façade frame.
     fn holds(&self, to_corner: DVec3) -> bool {
         let within = |from: f64, size: f64| from <= 0.0 && from + size >= 0.0;
         to_corner.z == 0.0 && within(to_corner.x, self.size[0]) && within(to_corner.y, self.size[1])
     }
 
-    /// Returns the distance inside at which a sensor in the opening counts to be. \[m\]
+    /// Returns the distance behind the aperture's plane with which a sensor in the aperture is computed. \[m\]
     fn just_inside(&self) -> f64 {
         JUST_INSIDE * self.size[0].min(self.size[1])
     }
 
-    /// Returns the view from a sensor. `None` when the sensor lies behind the aperture's plane, or in that plane and
-    /// either beside the opening or facing perpendicularly into the room: no light from the aperture arrives there. A
-    /// sensor in the opening itself has the view from just inside.
+    /// Returns the view of the aperture from a sensor, given by its position and normal in the room's frame. `None` if
+    /// no light from the aperture arrives: the sensor lies outside the aperture's plane, or in that plane and either
+    /// beside the aperture or facing perpendicularly into the room. A sensor in the aperture itself has the view from
+    /// slightly inside.
     pub fn view(&self, position: DVec3, normal: DVec3) -> Option<View> {
         let mut to_corner = self.surface.facade_from_room(self.corner - position);
         let normal = self.surface.facade_from_room(normal);
@@ -97,7 +101,7 @@ impl Aperture {
 }
 
 impl View {
-    /// Returns the corners of the opening as vectors from the sensor, façade frame. \[m\]
+    /// Returns the corners of the aperture as vectors from the sensor, façade frame. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         [
             DVec3::new(self.x[0], self.y[0], self.distance),

@@ -1,9 +1,9 @@
-//! Light that an aperture reflects back into the room, by direction (second term of eq 4): light from the patches, by
-//! the cells through which it falls on the aperture, times the dataset's own back reflection.
+//! Light that an aperture reflects back into the room, by direction (second term of eq 4): illuminance of its room side
+//! by the room's patches, by incident cell, times the room-side BRDF of its dataset.
 //!
-//! The geometry is that of the first light, read backwards: a patch of unit exitance sends as much into the aperture
-//! through a cell as it would receive through that cell. Like the emission, the light on the aperture is assumed to be
-//! uniform over it.
+//! The geometry is that of the direct light of the aperture, reversed: a patch of unit exitance sends as much flux to
+//! the aperture through a cell as it would receive through that cell. The illuminance of the aperture's room side is
+//! assumed to be uniform, like its emission.
 
 use super::aperture::Aperture;
 use super::mesh::Mesh;
@@ -18,24 +18,26 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Maximum number of incident cells of a room side that reflects by direction; finer data are taken as diffuse. Chosen:
-/// cost, as each cell needs a balance of the room; several times the 145 cells of Klems. No test of its own.
+/// Maximum number of incident cells of a room-side BRDF; finer data are replaced by diffuse reflection. Chosen: cost,
+/// because each cell needs a solution of the room's interreflection; several times the 145 cells of Klems. No test of
+/// its own.
 const MOST_CELLS: usize = 600;
 
-/// Number of cells for which the balance of the room is solved together. Chosen: cost; results change within their
+/// Number of cells for which the room's interreflection is solved together. Chosen: cost; results change within their
 /// rounding.
 const TOGETHER: usize = 64;
 
-/// Room side of one aperture that reflects by direction.
+/// Room side of one aperture with a BRDF by cells instead of a diffuse reflectance.
 pub struct BackReflection<'a> {
     matrix: &'a CellMatrix,
-    /// Weights of the patches on the matrix's incident cells.
+    /// Weights of the aperture's cells in the illuminance of the room's patches, on the incident cells of the matrix.
     weights: Arc<PatchWeights>,
-    /// Emergent cell of the matrix for every cell of emergent light.
+    /// Index of the emergent cell of the matrix for every cell of `weights`.
     source: Vec<usize>,
 }
 
-/// Returns the cells of a back reflection; `None` where it cannot be followed by direction.
+/// Returns the room-side BRDF by cells; `None` if the data have another form or too many cells, so that they are
+/// replaced by diffuse reflection.
 pub fn reflecting_cells(scattered: Option<&Scattered>) -> Option<&CellMatrix> {
     match scattered {
         Some(Scattered::Cells(matrix)) if matrix.incident().len() <= MOST_CELLS => Some(matrix),
@@ -44,10 +46,12 @@ pub fn reflecting_cells(scattered: Option<&Scattered>) -> Option<&CellMatrix> {
 }
 
 impl<'a> BackReflection<'a> {
-    /// Creates the back reflection from `weights` of the patches on the matrix's incident cells.
+    /// Creates the back reflection of an aperture from its room-side BRDF and the weights of its cells in the
+    /// illuminance of the room's patches, on the incident cells of `matrix`.
     pub fn new(matrix: &'a CellMatrix, weights: Arc<PatchWeights>) -> Self {
-        // Reflected light is named by its lateral parts as it travels, so that a mirror is a diagonal; light from an
-        // aperture by where it comes from: half a turn about the normal between the two.
+        // Cells of the room-side BRDF hold reflected light by its direction of propagation, mirrored so that a mirror
+        // is a diagonal matrix; the weights hold emergent light by the reversed direction: the two differ by half a
+        // turn about the normal.
         let source = weights
             .basis
             .cells()
@@ -59,32 +63,34 @@ impl<'a> BackReflection<'a> {
         Self { matrix, weights, source }
     }
 
-    /// Computes the luminance of the room side by the cells of [`Self::weights`], from the exitance of every patch.
-    /// \[cd/m²\]
+    /// Computes the luminance of the aperture's room side by reflected light, by cell of [`Self::weights`], from the
+    /// exitance of every patch \[lm/m²\]. \[cd/m²\]
     pub fn luminance(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
         let incident = self.weights.falling_back(mesh, aperture, exitance);
         let reflected = self.matrix.luminance(&incident);
         self.source.iter().map(|&cell| reflected[cell]).collect()
     }
 
-    /// Returns the luminance of a cell of [`Self::weights`] per illuminance through an incident cell. \[1/sr\]
+    /// Returns the luminance in a cell of [`Self::weights`] per illuminance of the room side from an incident cell.
+    /// \[1/sr\]
     fn value(&self, incident: usize, cell: usize) -> f64 {
         self.matrix.value(incident, self.source[cell])
     }
 
-    /// Returns the weights of the patches.
+    /// Returns the weights of the aperture's cells in the illuminance of the room's patches.
     pub fn weights(&self) -> &PatchWeights {
         &self.weights
     }
 }
 
-/// Mirroring apertures with their indices.
+/// Apertures with a room-side BRDF by cells ("mirrors"), with their indices.
 type Mirrors<'a> = [(usize, BackReflection<'a>)];
 
-/// Computes the interreflection between mirroring apertures and room for one light. Returns the luminance of every
-/// mirroring aperture at equilibrium; `exitance` is updated. `first`: illuminance of the patches before they reflect,
-/// without the mirrors' light; `beam`: illuminance of the patches by light whose reflection only the mirrors see here,
-/// because it was reflected before. [`settled`] serves many lights.
+/// Computes the interreflection between the room and the apertures with a room-side BRDF, by iteration, for one
+/// distribution of direct light. Returns the luminance of every such aperture by cell at equilibrium \[cd/m²\];
+/// `exitance` is updated. `first`: direct illuminance of the patches, without light from these apertures \[lx\];
+/// `beam`: illuminance of the patches by beams, whose reflection counts here for these apertures only, because the
+/// patches' interreflection of it is included elsewhere \[lx\]. For many distributions [`settled`] is cheaper.
 pub fn settled_light(
     radiosity: &Radiosity,
     geometry: &[Aperture],
@@ -97,7 +103,7 @@ pub fn settled_light(
     let brightest = first.iter().copied().fold(0.0, f64::max);
     let mut returned = vec![0.0; first.len()];
     let mut luminances = Vec::new();
-    // Each turn leaves the share of the light that comes back to an aperture, about a tenth.
+    // Each iteration reduces the change to the share of the light that returns to an aperture, about a tenth.
     for _ in 0..60 {
         let emitted: Vec<f64> =
             mesh.patches.iter().zip(&exitance.fine).zip(beam).map(|((p, b), e)| b + p.reflectance * e).collect();
@@ -119,17 +125,18 @@ pub fn settled_light(
     luminances
 }
 
-/// The room as seen by an aperture's side that reflects by cells, whatever its reflectance: rows by cell of incident
-/// light. Geometry and the room's own reflectances only: shared by all systems and states on the same cells.
+/// Illuminance of an aperture's room side by the room, by incident cell, for any BRDF of the room side. It depends on
+/// geometry and on the room's reflectances only and is shared by all systems and states with the same cells.
 pub struct RoomSide {
-    /// Weights of the patches' illuminance before they reflect, with all reflections except those of mirrors.
+    /// Weights of the patches' direct illuminance in the illuminance from each cell, with all reflections except those
+    /// by apertures with a BRDF.
     returned: Vec<Vec<f64>>,
-    /// Weights of `returned` stored patch by patch, because beams light few patches.
+    /// Weights of `returned`, stored patch by patch, because beams light few patches.
     by_patch: Vec<f64>,
 }
 
 impl RoomSide {
-    /// Computes the room side for the cells of `weights`.
+    /// Computes the weights for the cells of `weights` of one aperture.
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);
         let falling: Vec<&[f64]> = falling.iter().map(Vec::as_slice).collect();
@@ -140,8 +147,8 @@ impl RoomSide {
         Self { returned, by_patch }
     }
 
-    /// Computes the illuminance that reaches the aperture through every cell by way of the room, from the illuminance
-    /// of the patches before they reflect.
+    /// Computes the illuminance of the aperture's room side from every cell by light reflected in the room, from the
+    /// direct illuminance `first` of the patches. \[lx\]
     pub fn incident(&self, first: &[f64]) -> Vec<f64> {
         let mut sums = vec![0.0; self.returned.len()];
         let rows = self.by_patch.chunks_exact(sums.len().max(1));
@@ -149,20 +156,21 @@ impl RoomSide {
         sums
     }
 
-    /// Computes the illuminance that reaches the aperture per luminance of every cell of emergent light: a row for each
-    /// incident cell.
+    /// Computes the illuminance of the aperture's room side per luminance of every cell of an emitting aperture with
+    /// the weights `emergent`: a row for each incident cell. \[sr\]
     pub fn by_cells(&self, emergent: &PatchWeights) -> Vec<Vec<f64>> {
         let returned: Vec<&[f64]> = self.returned.iter().map(Vec::as_slice).collect();
         returned.par_chunks(TOGETHER).flat_map_iter(|rows| emergent.gathered(rows)).collect()
     }
 }
 
-/// [`settled_light`] solved once for every light. With R the reflection of the mirrors by cells, and G the incident
-/// light that their own luminances cause, l = R (e + G l); returns the matrix (1 − R G)⁻¹ R. `again`: G, by mirror that
-/// light falls on and mirror that it comes from.
+/// Returns the matrix (1 − R G)⁻¹ R that gives the luminances l of the cells of all apertures with a room-side BRDF
+/// from the illuminances e from their incident cells: l = R (e + G l), with R the BRDF by cells, and G the illuminance
+/// from cells that these luminances cause by way of the room. It solves [`settled_light`] once for all distributions of
+/// direct light. `again`: G, by index of the illuminated and of the emitting aperture.
 pub fn settled(mirrors: &Mirrors<'_>, again: &[Vec<Arc<Vec<Vec<f64>>>>]) -> Mat<f64> {
     let counts: Vec<usize> = mirrors.iter().map(|(_, mirror)| mirror.weights.basis.len()).collect();
-    // Mirror and own cell of every cell of all.
+    // Index of the mirrored cell and of the cell itself, for every cell of all apertures.
     let cells: Vec<(usize, usize)> =
         counts.iter().enumerate().flat_map(|(mirror, &count)| (0..count).map(move |cell| (mirror, cell))).collect();
     let reflect = Mat::from_fn(cells.len(), cells.len(), |o, i| {
@@ -170,7 +178,7 @@ pub fn settled(mirrors: &Mirrors<'_>, again: &[Vec<Arc<Vec<Vec<f64>>>>]) -> Mat<
         if to == from { mirrors[to].1.value(incident, cell) } else { 0.0 }
     });
     let again = Mat::from_fn(cells.len(), cells.len(), |i, o| again[cells[i].0][cells[o].0][cells[i].1][cells[o].1]);
-    // One thread: the result must not depend on their number.
+    // One thread, because the result must not depend on the number of threads.
     faer::set_global_parallelism(faer::Par::Seq);
     let balance = Mat::<f64>::identity(cells.len(), cells.len()) - &reflect * again;
     balance.partial_piv_lu().solve(&reflect)

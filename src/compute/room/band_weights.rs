@@ -1,11 +1,11 @@
-//! Weights of light that a sensor receives through an aperture by bands of the profile angle: every band is a strip of
-//! the opening, and strips have closed forms.
+//! Weights of the luminances of an aperture by band of the profile angle in the illuminance of a sensor: every band is
+//! a strip of the aperture, and strips have closed forms.
 
 use super::aperture::View;
 use crate::compute::polygon::projected_solid_angle;
 use crate::compute::system::measure::ProfileLight;
 
-/// Projected solid angles of the bands that a sensor sees. \[sr\]
+/// Projected solid angles of the bands of the profile angle that a sensor sees through an aperture. \[sr\]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct BandWeights {
     first: usize,
@@ -13,7 +13,8 @@ pub struct BandWeights {
 }
 
 impl BandWeights {
-    /// Computes the weights of `bands` bands for a view. `upright`: bands by the angle to the right instead of upwards.
+    /// Computes the weights of `bands` bands for the view of an aperture from a sensor. `upright`: bands of the profile
+    /// angle to the right instead of upwards.
     pub fn new(view: &View, upright: bool, bands: usize) -> Self {
         let limits = if upright { view.x } else { view.y };
         let strip = |[low, high]: [f64; 2]| {
@@ -30,12 +31,13 @@ impl BandWeights {
         Self { first, weights: weights[first..end].to_vec() }
     }
 
-    /// Returns the indices of the bands that are seen, with their weights.
+    /// Returns the indices of the visible bands with their weights. \[sr\]
     pub fn each(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.weights.iter().enumerate().map(|(k, weight)| (self.first + k, *weight))
     }
 
-    /// Returns Σ weight · value over the bands.
+    /// Returns the sum of weight · value over the visible bands; with luminances as `values` it is the illuminance of
+    /// the sensor. \[lx\]
     pub fn of(&self, values: &[f64]) -> f64 {
         self.weights.iter().zip(&values[self.first..]).map(|(w, v)| w * v).sum()
     }

@@ -1,39 +1,40 @@
-//! The sun's unscattered beam on the surfaces of the room: parallel projection of the opening, exact areas.
+//! Unscattered beams of the sun on the surfaces of the room: parallel projection of the aperture, with exact areas.
 
 use super::mesh::{Mesh, Wall};
 use super::outline::Outline;
 use crate::compute::polygon::{area, cut_by_all};
 use glam::{DVec2, DVec3};
 
-/// Light that crosses an opening in one direction.
+/// Parallel light that enters the room through an aperture in one direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Beam {
-    /// Convex opening that the beam crosses: an aperture, or the sunlit part of one. Room frame. \[m\]
+    /// Corners of the convex polygon that the beam crosses: an aperture, or the sunlit part of one, in the room's
+    /// frame. \[m\]
     pub opening: Vec<DVec3>,
-    /// Unit vector towards the source of the light, room frame.
+    /// Unit vector against the direction of propagation (towards the source), room's frame.
     pub from: DVec3,
     /// Luminous flux of the beam. \[lm\]
     pub flux: f64,
 }
 
-/// Convex piece of a wall that a beam lights.
+/// Convex piece of a room surface that a beam lights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lit {
-    /// Index of the wall.
+    /// Index of the room surface among the walls of the mesh.
     pub wall: usize,
-    /// Corners in the wall's own coordinates, in order. \[m\]
+    /// Corners of the piece in the coordinates of the wall, in order. \[m\]
     pub corners: Vec<DVec2>,
     /// Illuminance of the piece by the beam alone. \[lx\]
     pub illuminance: f64,
 }
 
-/// Maximum number of beams through all apertures together that the room reflects one by one; more are merged. Chosen:
-/// cost; held by the test `a_fan_keeps_its_flux_and_its_reflection_when_it_is_merged` (2e-3).
+/// Maximum number of beams through all apertures together whose first reflection is computed separately; more are
+/// merged. Chosen: cost; held by the test `a_fan_keeps_its_flux_and_its_reflection_when_it_is_merged` (2e-3).
 pub const MOST_BEAMS: usize = 24;
 
 impl Beam {
-    /// Returns the pieces of the walls that the beam lights, scaled to its flux. The disc's penumbra is neglected: its
-    /// mean over a patch is zero except at the edges.
+    /// Returns the pieces of the room surfaces that the beam lights, with illuminances scaled to its flux. The penumbra
+    /// by the sun's diameter is neglected: its mean effect on a patch is zero except at the edges.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         let mut lit = Vec::with_capacity(3);
         let mut incident = 0.0;
@@ -60,12 +61,12 @@ impl Beam {
         lit
     }
 
-    /// Returns outlines of the light that the walls reflect at once, exactly. The exitances of outlines that lie in
-    /// each other add up.
+    /// Returns outlines of the lit pieces with the exitance by the first reflection of the beam, exactly. The exitances
+    /// of overlapping outlines add up.
     pub fn outlines(&self, mesh: &Mesh) -> Vec<Outline> {
         let mut outlines = Vec::with_capacity(4);
         for Lit { wall: number, corners, illuminance } in self.lit(mesh) {
-            // The bare wall as a whole, then what apertures in it reflect more or less.
+            // The wall without apertures, then the differences in reflectance of the apertures in it.
             let wall = &mesh.walls[number];
             let bare = mesh.patches[wall.patches()].iter().find(|patch| patch.aperture.is_none());
             let rho = bare.map_or(0.0, |patch| patch.reflectance);
@@ -82,7 +83,7 @@ impl Beam {
         outlines
     }
 
-    /// Adds the mean illuminance that the beam gives every patch. \[lx\]
+    /// Adds the mean illuminance of every patch by the beam to `illuminance`. \[lx\]
     pub fn add_to(&self, mesh: &Mesh, illuminance: &mut [f64]) {
         let (mut strip, mut part, mut spare) = (Vec::new(), Vec::new(), Vec::new());
         for lit in self.lit(mesh) {
@@ -106,8 +107,8 @@ impl Beam {
     }
 }
 
-/// Merges beams of about the same direction into fewer of the same total flux, such as those of a mirror's fan, whose
-/// patches nearly cover each other. Each aperture keeps several.
+/// Merges beams of about the same direction into fewer of the same total flux, for instance those of a fan by a curved
+/// mirror, whose lit areas nearly coincide. Beams through different polygons are not merged.
 pub fn merged(beams: &[Beam]) -> Vec<Beam> {
     if beams.len() <= MOST_BEAMS {
         return beams.to_vec();
@@ -134,7 +135,8 @@ pub fn merged(beams: &[Beam]) -> Vec<Beam> {
     }
 }
 
-/// Returns the apertures in a wall: their limits in its coordinates, and their reflectances.
+/// Returns the apertures in a wall: their limits in the wall's coordinates \[m\], and the reflectances of their room
+/// sides.
 fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
     let mut found: Vec<(usize, [[f64; 2]; 2], f64)> = Vec::new();
     for patch in &mesh.patches[wall.patches()] {
@@ -151,7 +153,7 @@ fn set_in(mesh: &Mesh, wall: &Wall) -> Vec<([[f64; 2]; 2], f64)> {
     found.into_iter().map(|(_, extent, reflectance)| (extent, reflectance)).collect()
 }
 
-/// Returns the lower and upper limit of a polygon along one axis.
+/// Returns the lower and upper limit of a polygon along the axis `side`.
 fn limits(corners: &[DVec2], side: usize) -> [f64; 2] {
     let along = corners.iter().map(|p| p[side]);
     [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)]

@@ -1,5 +1,5 @@
-//! The sun's beams through an aperture that boxes shade in part: with sharp edges, and the penumbra of undeviated
-//! light.
+//! Beams of the sun through an aperture that obstructions shade in part: shadows with sharp edges, and penumbra for
+//! undeviated beams.
 
 use super::aperture::Aperture;
 use super::direct::{DirectLight, Sensor};
@@ -13,7 +13,7 @@ use crate::compute::surroundings::shading::lit_pieces;
 use crate::compute::surroundings::solid::Face;
 use glam::DVec3;
 
-/// Returns the outer side of an aperture among boxes, in the world's frame.
+/// Returns the outside of an aperture as a face in the world's axes, with its origin in the lower left corner.
 pub fn outer_face(aperture: &Aperture, orientation: Orientation) -> Face {
     let axis = |v: DVec3| orientation.to_world(aperture.surface.room_from_facade(v));
     Face {
@@ -25,8 +25,9 @@ pub fn outer_face(aperture: &Aperture, orientation: Orientation) -> Face {
     }
 }
 
-/// Returns the part of an aperture that the middle of the sun's disc reaches, as convex pieces with their corners in
-/// the room frame; and its share of the aperture's area.
+/// Returns the sunlit part of an aperture behind obstructions, for the centre of the sun's disc: convex pieces with
+/// their corners in the room's frame \[m\], and their share of the aperture's area. `facing`: sun and orientation;
+/// `around`: obstructions.
 pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (Vec<Vec<DVec3>>, f64) {
     let Some(sun) = facing.sun else { return (Vec::new(), 0.0) };
     let face = outer_face(aperture, facing.orientation);
@@ -36,8 +37,8 @@ pub fn lit(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> (
     (pieces.iter().map(|piece| piece.iter().map(corner).collect()).collect(), share)
 }
 
-/// Returns the parts of an aperture that four points of the sun's rim reach, two across and two along. They bound the
-/// position of shadow edges where it is not known how a system rotates the disc.
+/// Returns the sunlit parts of an aperture for four points on the rim of the sun's disc, two across and two along. They
+/// bound the position of shadow edges if it is not known how a system rotates the disc.
 pub fn lit_by_rim(aperture: &Aperture, facing: &Facing<'_>, around: &Surroundings) -> Vec<Vec<Vec<DVec3>>> {
     let Some(sun) = facing.sun else { return Vec::new() };
     let middle = sun.direction.vector();
@@ -49,10 +50,10 @@ pub fn lit_by_rim(aperture: &Aperture, facing: &Facing<'_>, around: &Surrounding
     [u, -u, v, -v].map(by).into()
 }
 
-/// Computes the illuminance at a sensor from the sun's beams through an aperture. An undeviated beam is the part of the
-/// disc that the sensor sees past the boxes. A redirected one comes from `lit`, the pieces that the middle of the disc
-/// reaches, and its error is the change by the pieces of `rim`, those that points of the disc's rim reach; it has no
-/// penumbra of the boxes.
+/// Computes the illuminance of a sensor by beams of the sun through an aperture behind obstructions. An undeviated beam
+/// lights the sensor in proportion to the part of the disc that it sees past the obstructions. A redirected beam comes
+/// from the pieces `lit` of the aperture, which are sunlit for the centre of the disc; its error is the change with the
+/// pieces `rim`, which are sunlit for points of the disc's rim; it has no penumbra of the obstructions.
 pub fn beams_past(
     sensor: &Sensor,
     aperture: &Aperture,

@@ -1,9 +1,10 @@
-//! Exact near field of an aperture whose luminance is constant on the cells of a ring basis (eq 17 in solid-angle
-//! form): for every cell, the integral of the sensor's cosine over the part of the cell that the aperture fills.
+//! Exact illuminance of a sensor near an aperture whose luminance is constant on the cells of a ring basis (eq 17 in
+//! solid-angle form): for every cell, the integral of the sensor's cosine over the part of the cell that the aperture
+//! covers.
 //!
-//! The aperture, clipped by the sensor's plane, is a convex polygon in the gnomonic plane of the through direction. In
-//! polar coordinates about the aperture's normal every cell border is a circle or a ray, every polygon edge a great
-//! circle, so that between the azimuths where borders cross all integrals have closed forms: no sampling, no
+//! The aperture, clipped by the sensor's plane, is a convex polygon in the gnomonic plane of the directions from the
+//! sensor. In polar coordinates about the aperture's normal every cell border is a circle or a ray, every polygon edge
+//! a great circle, so that between the azimuths where borders cross all integrals have closed forms: no sampling, no
 //! singularity at grazing sensors.
 
 use super::aperture::View;
@@ -14,8 +15,9 @@ use crate::compute::polygon::{clip, edge, is_tiny, projected_solid_angle};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Calls `visit(cell, weight)` for every cell that the sensor sees through the aperture; E = Σ L_cell · weight. \[sr\]
-/// A cell may be visited several times, in a fixed order.
+/// Calls `visit(cell, weight)` for every cell of `basis` that a sensor sees through an aperture; the weight is the
+/// cell's projected solid angle \[sr\], so that E = Σ L_cell · weight. A cell may be visited several times, in a fixed
+/// order.
 pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize, f64)) {
     let mut corners = Vec::with_capacity(6);
     clip(&view.corners(), view.normal, &mut corners);
@@ -23,7 +25,7 @@ pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize
         return;
     }
     if is_tiny(&corners) {
-        // Too small for borders of cells across it to matter.
+        // The aperture is so small that borders of cells within it do not matter.
         let centre = Dir::new(corners.iter().sum());
         if let Some(cell) = centre.and_then(|centre| basis.index(centre)) {
             visit(cell, projected_solid_angle(&corners, view.normal));
@@ -39,21 +41,22 @@ pub fn for_each_cell(view: &View, basis: &RingBasis, mut visit: impl FnMut(usize
     }
 }
 
-/// A convex polygon in the plane z = distance, seen from the origin in polar coordinates about z.
+/// Convex polygon in the plane z = distance, seen from the origin in polar coordinates about z.
 struct Polygon {
     /// Inward half planes n·p ≥ c of the edges from vertex k to k + 1, n of unit length.
     edges: Vec<(DVec2, f64)>,
     distance: f64,
-    /// Azimuth from which relative azimuths are counted, and their range.
+    /// Azimuth from which relative azimuths are counted, and the range of the polygon's relative azimuths. \[rad\]
     reference: f64,
     range: [f64; 2],
-    /// Relative azimuths of the vertices.
+    /// Relative azimuths of the vertices. \[rad\]
     azimuths: Vec<f64>,
-    /// Minimum and maximum distance from the pole.
+    /// Minimum and maximum distance of the polygon from the pole. \[m\]
     radii: [f64; 2],
 }
 
 impl Polygon {
+    /// Creates the polygon from its counter-clockwise corners in the plane z = `distance`; `None` for a degenerate one.
     fn new(corners: &[DVec3], distance: f64) -> Option<Self> {
         let mut vertices: Vec<DVec2> = corners.iter().map(|c| c.truncate()).collect();
         vertices.dedup();
@@ -97,12 +100,13 @@ impl Polygon {
             };
             (0..vertices.len()).map(from_edge).fold(f64::INFINITY, f64::min)
         };
-        // Widened by rounding: a ring that is only touched may be looked at or not, it adds nothing.
+        // Widened against rounding: whether a ring that only touches the polygon is visited does not matter.
         let radii = [nearest * (1.0 - 1e-12), farthest * (1.0 + 1e-12)];
         Some(Self { edges, distance, reference, range, azimuths, radii })
     }
 
-    /// Returns the interval of distances from the pole along a relative azimuth, with the edges that bound it.
+    /// Returns the interval of distances from the pole along a relative azimuth, with the indices of the edges that
+    /// bound it.
     fn along(&self, azimuth: f64) -> Option<[(f64, Option<usize>); 2]> {
         let (sin, cos) = (azimuth + self.reference).sin_cos();
         let ray = DVec2::new(cos, sin);
@@ -124,6 +128,7 @@ impl Polygon {
         (high.0 > low.0).then_some([low, high])
     }
 
+    /// Visits the cells of one ring that the polygon covers, with their weights.
     fn ring(
         &self,
         basis: &RingBasis,
@@ -173,8 +178,8 @@ impl Polygon {
             let (a, b) = (from, to);
             let ends = [end, (b + self.reference).sin_cos()];
             (from, end) = (to, ends[1]);
-            // What bounds the interval, and its sector, are asked in its middle, where rounding cannot confuse
-            // neighbours.
+            // Bounds and sector of the interval are determined at its middle, where rounding cannot lead to a
+            // neighbour.
             let middle = 0.5 * (a + b);
             let Some([low, high]) = self.along(middle) else {
                 continue;
@@ -185,7 +190,8 @@ impl Polygon {
                 continue;
             }
             let fan = |bound: &Bound| self.fan(bound, ends, b - a);
-            // w = n·∫ω dω over the fan between the two bounds. The part lies before the sensor: below 0 is rounding.
+            // w = n·∫ω dω over the fan between the two bounds. The fan lies in front of the sensor, so that negative
+            // values are rounding.
             let weight = view.normal.dot(fan(&upper) - fan(&lower));
             let own = basis.azimuth().own_phi(middle + self.reference);
             let sector = (wrap_two_pi(own - ring.first_phi + 0.5 * width) / width) as usize;
@@ -193,7 +199,7 @@ impl Polygon {
         }
     }
 
-    /// Adds the azimuths at which the polygon's edges cross a circle about the pole.
+    /// Adds the relative azimuths at which the polygon's edges cross a circle about the pole to `breaks`.
     fn crossings(&self, radius: f64, breaks: &mut Vec<f64>) {
         for &(normal, c) in &self.edges {
             if c.abs() < radius {
@@ -243,13 +249,13 @@ impl Rim {
 }
 
 enum Bound {
-    /// A ring's limit.
+    /// Border of a ring.
     Circle(Rim),
     /// An edge of the polygon; `None` is the pole itself.
     Edge(Option<usize>),
 }
 
-/// Returns an azimuth counted from a reference, −π … π.
+/// Returns an azimuth relative to a reference, −π … π. \[rad\]
 fn relative(azimuth: f64, reference: f64) -> f64 {
     let turned = wrap_two_pi(azimuth - reference);
     if turned > PI { turned - 2.0 * PI } else { turned }

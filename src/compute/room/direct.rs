@@ -1,5 +1,5 @@
-//! Direct component: light that arrives at a sensor from an aperture without reflection in the room (eq 17), each part
-//! of the emission by its own exact or error-controlled method.
+//! Direct component: illuminance of a sensor by an aperture without reflection in the room (eq 17), each component of
+//! the aperture's emission by an exact or error-controlled method.
 
 use super::aperture::{Aperture, View};
 use super::band_weights::BandWeights;
@@ -15,26 +15,28 @@ use crate::compute::sky::SUN_HALF_ANGLE;
 use crate::compute::sky::sun_disc::{self, Edge};
 use glam::DVec3;
 
-/// A point that receives light from in front of its normal.
+/// Sensor point: position and normal of a plane whose illuminance is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sensor {
-    /// Position in the room frame. \[m\]
+    /// Position of the sensor in the room's frame. \[m\]
     pub position: DVec3,
-    /// Unit normal in the room frame.
+    /// Unit normal of the sensor in the room's frame.
     pub normal: DVec3,
 }
 
-/// Projected solid angles of one aperture as seen from a sensor: illuminance per luminance, from geometry alone.
+/// Projected solid angles of one aperture as seen from a sensor: its illuminance per luminance of the aperture, from
+/// geometry alone.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reception {
-    /// Projected solid angle of the whole opening. \[sr\]
+    /// Projected solid angle of the whole aperture. \[sr\]
     pub uniform: f64,
-    /// Projected solid angle of the opening by emergent cell; empty without a basis. \[sr\]
+    /// Projected solid angle of the aperture by emergent cell; empty without a basis. \[sr\]
     pub cells: Vec<f64>,
 }
 
 impl Reception {
-    /// Computes the solid angles for a sensor and an aperture whose light lies on the cells of `basis`.
+    /// Computes the projected solid angles of an aperture whose luminance is given on the cells of `basis`, seen from a
+    /// sensor.
     pub fn new(sensor: &Sensor, aperture: &Aperture, basis: Option<&RingBasis>) -> Self {
         let mut cells = vec![0.0; basis.map_or(0, RingBasis::len)];
         let mut uniform = 0.0;
@@ -48,14 +50,14 @@ impl Reception {
     }
 }
 
-/// Direct component at a sensor from one aperture.
+/// Direct component of the illuminance of a sensor by one aperture.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DirectLight {
-    /// Illuminance from all light of the aperture, with the error of the computation. \[lx\]
+    /// Illuminance by all light from the aperture, with the error of the computation. \[lx\]
     pub all: Estimate,
-    /// Part of the illuminance that comes as beams of the sun. \[lx\]
+    /// Part of the illuminance by beams of direct sun. \[lx\]
     pub beam: f64,
-    /// Uncertainty of the illuminance that stems from the data. \[lx\]
+    /// Uncertainty of the illuminance by the data of the system. \[lx\]
     pub data_error: f64,
 }
 
@@ -67,12 +69,13 @@ impl std::ops::AddAssign for DirectLight {
     }
 }
 
-/// Relative error due to the width of the bands; found for matt slats against exact integrals along them. No test of
-/// its own.
+/// Relative error of the illuminance by the width of the bands of the profile angle; found for matt slats by comparison
+/// with exact integrals along them. No test of its own.
 const BAND_ERROR: f64 = 1e-3;
 
-/// Computes the illuminance at a sensor from one aperture, sun included. `receptions`: one for every part of the
-/// emission on cells, the first of them for uniform light, too; `weights`: for the parts in bands.
+/// Computes the direct illuminance of a sensor by one aperture, sun included. \[lx\] `receptions`: projected solid
+/// angles for every component of the emission on cells, the first of them also for the Lambertian component; `weights`:
+/// projected solid angles of the bands of the profile angle.
 pub fn illuminance(
     sensor: &Sensor,
     aperture: &Aperture,
@@ -104,7 +107,7 @@ pub fn illuminance(
         data_error += seen.data_error;
     }
     if let Some(lamps) = &emission.lamps {
-        // Their parts are what they are: how a host computes is the answer, not an error.
+        // No error for the division into parts: the result of the host program's method is asked for.
         sum += Estimate::exact(lamps.illuminance(sensor.position, sensor.normal));
     }
     let beams = beams_through(sensor, aperture, &emission.beams, facing);
@@ -115,14 +118,16 @@ pub fn illuminance(
     DirectLight { all, beam: beams.beam, data_error: data_error + beams.data_error }
 }
 
-/// Computes the illuminance at a sensor from the outside seen through an opening by regular transmission.
+/// Computes the illuminance of a sensor by sky, ground and obstructions seen through an aperture by regular
+/// transmission, without direct sun. \[lx\]
 pub fn seen_through(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> DirectLight {
     let data_error =
         if tau.is_estimated() { tau.uncertainty_of_light(&through::by_degrees(view, facing)) } else { 0.0 };
     DirectLight { all: through::illuminance(view, facing, tau, tolerance), beam: 0.0, data_error }
 }
 
-/// Computes the illuminance at a sensor from the sun's beams through an aperture, with the sun's penumbra.
+/// Computes the illuminance of a sensor by beams of direct sun through an aperture, with the penumbra by the sun's
+/// diameter. \[lx\]
 pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> DirectLight {
     let Some(view) = aperture.view(sensor.position, sensor.normal).filter(|_| !beams.is_empty()) else {
         return DirectLight::default();
@@ -152,7 +157,8 @@ pub fn beams_through(sensor: &Sensor, aperture: &Aperture, beams: &[BeamLight], 
     DirectLight { all: sum, beam: sum.value, data_error }
 }
 
-/// Whether a beam is seen as a whole disc through the opening, or not at all; `None` where an edge may cut it.
+/// Whether the sensor sees the whole disc of a beam through the aperture (`true`) or nothing of it; `None` if an edge
+/// may cut the disc.
 fn clearly_seen(view: &View, to: DVec3) -> Option<bool> {
     // Half angle of the sun's disc and 5 % for higher orders, which is enough up to 88.8° from the opening's normal. On
     // the opening's plane the disc's ellipse reaches no farther than this from its middle.

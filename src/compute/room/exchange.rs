@@ -1,21 +1,20 @@
 //! Exchange areas A·F between the patches of two nested meshes of one box, from shared tables of corner values.
 //!
-//! A pair of walls needs the corner function only at the combinations of its lines' differences: lines along the common
-//! axis count by their distance alone, so that many combinations are one.
+//! A pair of walls needs the corner function only for the distinct differences between their grid lines: for lines
+//! along the common axis only the distance matters, so that many combinations coincide.
 
 use super::form_factor::{parallel_corner, perpendicular_corner};
 use super::mesh::{Mesh, Wall};
 use faer::MatRef;
 
-/// A·F of every receiving patch (row) and emitting patch (column). \[m²\]
+/// Exchange areas A·F (area times form factor) of every receiving patch (row) and emitting patch (column). \[m²\]
 pub struct Exchange {
     columns: usize,
     values: Vec<f64>,
 }
 
 impl Exchange {
-    /// Computes the exchange areas between the patches of `receivers` and those of `emitters`, two meshes of the same
-    /// box.
+    /// Computes the exchange areas between the patches of two meshes of the same box room.
     pub fn new(receivers: &Mesh, emitters: &Mesh) -> Self {
         let columns = emitters.patches.len();
         let mut exchange = Self { columns, values: vec![0.0; receivers.patches.len() * columns] };
@@ -31,12 +30,12 @@ impl Exchange {
         exchange
     }
 
-    /// Returns the exchange areas of one receiving patch, by emitting patch. \[m²\]
+    /// Returns the exchange areas of one receiving patch with every emitting patch. \[m²\]
     pub fn row(&self, receiver: usize) -> &[f64] {
         &self.values[receiver * self.columns..(receiver + 1) * self.columns]
     }
 
-    /// Returns the matrix with rows of receiving and columns of emitting patches. \[m²\]
+    /// Returns the exchange areas as a matrix: a row for each receiving patch, a column for each emitting patch. \[m²\]
     pub fn matrix(&self) -> MatRef<'_, f64> {
         MatRef::from_row_major_slice(&self.values, self.rows(), self.columns)
     }
@@ -46,8 +45,8 @@ impl Exchange {
         self.values.len() / self.columns.max(1)
     }
 
-    /// Sums exchange areas over groups of patches; `row_of[i]` and `column_of[j]` are row and column of the result that
-    /// each is added to.
+    /// Returns the exchange areas summed over groups of patches, with `rows` rows and `columns` columns. `row_of[i]`
+    /// and `column_of[j]` are the row and the column of the result to which the patches i and j belong.
     pub fn gathered(&self, row_of: Option<&[usize]>, rows: usize, column_of: &[usize], columns: usize) -> Self {
         let mut values = vec![0.0; rows * columns];
         for i in 0..self.rows() {
@@ -59,6 +58,7 @@ impl Exchange {
         Self { columns, values }
     }
 
+    /// Computes the exchange areas between the patches of two parallel walls.
     fn parallel(&mut self, a: &Wall, b: &Wall) {
         let z = (a.position - b.position).abs();
         // Both walls lie across the same axis, so that their lines run along the same two. The corner function G is
@@ -79,7 +79,7 @@ impl Exchange {
                     let out = &mut self.values[base..base + b1];
                     for (l, af) in out.iter_mut().enumerate() {
                         let sum = |y: usize| table[at[0] + y] - table[at[1] + y] - table[at[2] + y] + table[at[3] + y];
-                        // Never negative but by rounding, where patches are small and far apart.
+                        // Negative only by rounding, if patches are small and far apart.
                         *af = (sum(y.at(j, l)) - sum(y.at(j + 1, l)) - sum(y.at(j, l + 1)) + sum(y.at(j + 1, l + 1)))
                             .abs();
                     }
@@ -88,6 +88,7 @@ impl Exchange {
         }
     }
 
+    /// Computes the exchange areas between the patches of two perpendicular walls.
     fn perpendicular(&mut self, a: &Wall, b: &Wall) {
         // The common axis runs along both walls; the other axis of a wall is counted from the line where they meet.
         let common = 3 - a.axis - b.axis;
@@ -137,7 +138,7 @@ impl Exchange {
     }
 }
 
-/// Distinct distances between the lines of two lists.
+/// Distinct distances between the grid lines of two lists.
 struct Differences {
     values: Vec<f64>,
     /// Index in `values` of each pair's distance.
@@ -154,7 +155,7 @@ impl Differences {
         let mut values: Vec<f64> = Vec::new();
         let mut index = vec![0; order.len()];
         for (distance, pair) in order {
-            // Rounding of lines that stand at equal distances; small against every difference that matters.
+            // Distances that differ by rounding only count as equal.
             if values.last().is_none_or(|last| distance - last > 4.0 * f64::EPSILON * length) {
                 values.push(distance);
             }

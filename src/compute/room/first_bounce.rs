@@ -1,4 +1,4 @@
-//! Light that every surface of the room receives directly from an aperture: the right-hand side of the interreflection.
+//! Direct illuminance of the room's surfaces by the apertures: the right-hand side of the interreflection equations.
 
 use super::aperture::{Aperture, View};
 use super::beam::{Beam, Lit, merged};
@@ -19,59 +19,62 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Share that may be misplaced of light that is shifted between patches as if it left in all directions alike. Chosen:
+/// Share of light that may be on wrong patches after a shift between patches that assumes Lambertian emission. Chosen:
 /// affects stated errors only.
 const MISPLACED: f64 = 0.25;
 
-/// Mean direct illuminance of the fine patches. \[lx\]
+/// Direct illuminance of the room's fine patches by all apertures, before reflection, and the beams of the sun. \[lx\]
 pub struct FirstLight {
-    /// Illuminance of every patch by sky, ground and scattered light. \[lx\]
+    /// Mean illuminance of every fine patch by sky, ground and scattered sunlight. \[lx\]
     pub diffuse: Vec<f64>,
-    /// Beams of the sun. Their first reflection is computed from exact outlines: [`BeamLanding`].
+    /// Beams of direct sun into the room. Their first reflection is computed from exact outlines: [`BeamLanding`].
     pub beams: Vec<Beam>,
-    /// Largest relative gap between the flux that left the apertures and the flux that the patches received, before
-    /// closure.
+    /// Largest relative difference between the flux that leaves the apertures and the flux that the patches receive,
+    /// before both are made equal by scaling.
     pub gap: f64,
-    /// Share of the light that may lie on other patches, because it is taken as uniform over parts of an aperture.
+    /// Share of the flux that may be on wrong patches, because it is assumed to be uniform over parts of an aperture.
     pub misplaced: f64,
 }
 
-/// Light of the beams on the room's surfaces, and its first reflection.
+/// Illuminance of the room's surfaces by beams of direct sun, and the first reflection of it.
 pub struct BeamLanding {
-    /// Outlines of the lit pieces with the exitance that they reflect at once.
+    /// Outlines of the lit pieces of surfaces with their exitance by the first reflection.
     pub outlines: Vec<Outline>,
-    /// Mean illuminance of every patch from these outlines, the input of the balance of the patches for beams. \[lx\]
+    /// Mean illuminance of every patch by these outlines, the input of the interreflection of beams. \[lx\]
     pub reflected: Vec<f64>,
-    /// Mean illuminance of every patch by the beams themselves, for views of the patches. \[lx\]
+    /// Mean illuminance of every patch by the beams themselves, for pictures of the room's surfaces. \[lx\]
     pub direct: Vec<f64>,
-    /// Share of the outlines' flux that the closure added or removed.
+    /// Share of the outlines' flux that was added or removed so that the patches receive exactly the reflected flux.
     pub gap: f64,
 }
 
 impl BeamLanding {
-    /// Returns the illuminance at a point from the first reflection of the beams. \[lx\]
+    /// Returns the illuminance at a point by the first reflection of the beams. \[lx\] `position` and `normal`: of the
+    /// receiving plane, room's frame.
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.outlines.iter().map(|outline| outline.light_at(mesh, position, normal)).sum()
     }
 }
 
-/// Computes the mean illuminance of every fine patch from an aperture of uniform exitance 1, without reflection. \[lx\]
+/// Computes the mean illuminance of every fine patch by an aperture of uniform Lambertian exitance 1 lm/m², without
+/// reflection. \[lx\] `index`: of the aperture in the meshes.
 pub fn from_even(radiosity: &Radiosity, index: usize, aperture: &Aperture) -> Vec<f64> {
     let mesh = &radiosity.nested.fine;
     if mesh.patches.iter().any(|patch| patch.aperture == Some(index)) {
         return radiosity.illuminance_from_aperture(index);
     }
-    // Too small for a patch: an outline has no neighbours to share lines with.
+    // An aperture too small for patches is lit as a single outline.
     patch_illuminances(mesh, &[Outline::of_aperture(mesh, aperture, 1.0)]).0
 }
 
 impl FirstLight {
-    /// Creates the first light of a dark room.
+    /// Creates the direct illuminance 0 of a room with this number of fine patches.
     pub fn dark(patches: usize) -> Self {
         Self { diffuse: vec![0.0; patches], beams: Vec::new(), gap: 0.0, misplaced: 0.0 }
     }
 
-    /// Adds the light of one aperture.
+    /// Adds the direct illuminance by one aperture. `index`: of the aperture in the meshes; `weights`: returns the
+    /// weights of the cells of a basis in the illuminance of the patches.
     pub fn add(
         &mut self,
         radiosity: &Radiosity,
@@ -98,13 +101,14 @@ impl FirstLight {
         emission.beams.iter().for_each(|beam| self.add_beam(aperture, beam, facing));
     }
 
-    /// Adds the light of luminaires in an aperture.
+    /// Adds the direct illuminance by luminaires that replace an aperture.
     pub fn add_lamps(&mut self, mesh: &Mesh, aperture: &Aperture, lamps: &Lamps) {
         let at = |sensor: &Sensor| lamps.illuminance(sensor.position, sensor.normal);
         self.add_seen(mesh, aperture, Estimate::exact(lamps.flux()), at);
     }
 
-    /// Adds light that lies on cells or bands. `weights`: weights of the patches by the cells of a basis.
+    /// Adds the direct illuminance by the components of an emission on cells and by profile angle. `weights`: returns
+    /// the weights of the cells of a basis in the illuminance of the patches.
     pub fn add_cells(&mut self, emission: &Emission, weights: &dyn Fn(&Arc<RingBasis>) -> Arc<PatchWeights>) {
         for light in &emission.cells {
             let luminance: Vec<f64> = light.diffuse.iter().zip(&light.sun).map(|(d, s)| d + s).collect();
@@ -122,7 +126,7 @@ impl FirstLight {
         }
     }
 
-    /// Adds a beam of the sun through one aperture.
+    /// Adds a beam of direct sun through a whole aperture.
     pub fn add_beam(&mut self, aperture: &Aperture, beam: &BeamLight, facing: &Facing<'_>) {
         if let Some(to) = beam.entering(facing) {
             let from = aperture.surface.room_dir(to).vector();
@@ -131,13 +135,14 @@ impl FirstLight {
         }
     }
 
-    /// Returns the pieces of walls that the beams light, as sharp as the room reflects them: beams of a wide fan are
-    /// merged.
+    /// Returns the pieces of room surfaces that the beams light; beams of a wide fan are merged, like in the first
+    /// reflection.
     pub fn lit(&self, mesh: &Mesh) -> Vec<Lit> {
         merged(&self.beams).iter().flat_map(|beam| beam.lit(mesh)).collect()
     }
 
-    /// Adds a beam through the convex pieces of an aperture that the sun reaches; room frame.
+    /// Adds a beam of direct sun through the sunlit convex pieces of an aperture, given by their corners in the room's
+    /// frame \[m\].
     pub fn add_beam_through(
         &mut self,
         aperture: &Aperture,
@@ -154,13 +159,15 @@ impl FirstLight {
         }
     }
 
-    /// Adds scattered light that is uniform over convex pieces of a wall with an aperture in it. \[lm/m²\]
+    /// Adds the direct illuminance by Lambertian light of convex pieces of an aperture, given by their outlines and
+    /// exitances.
     pub fn add_outlines(&mut self, mesh: &Mesh, outlines: &[Outline]) {
         self.add_diffuse(patch_illuminances(mesh, outlines));
     }
 
-    /// Adds light on cells that is known as uniform over few parts of an aperture (`coarse`, which leaves all other
-    /// parts out) but leaves it as in `fine`. The light of a patch is shifted as if it left in all directions alike.
+    /// Adds the direct illuminance `on_cells`, computed for an emission that is uniform over few parts of an aperture
+    /// (`coarse`), corrected to the actual distribution over the aperture (`fine`). The correction of each patch is
+    /// that for Lambertian emission.
     pub fn add_shifted(&mut self, mesh: &Mesh, mut on_cells: Self, coarse: &[Outline], fine: &[Outline]) {
         let before = std::mem::take(&mut on_cells.diffuse);
         let (few, many) = (patch_illuminances(mesh, coarse).0, patch_illuminances(mesh, fine).0);
@@ -178,8 +185,8 @@ impl FirstLight {
         self.add_diffuse((shifted, on_cells.gap));
     }
 
-    /// Adds the outside seen through an aperture from light at points of the patches, scaled to the flux that enters as
-    /// far as that is known. \[lm\]
+    /// Adds the direct illuminance by the outside seen through an aperture. `at`: returns the illuminance at a point of
+    /// a patch \[lx\]; `flux`: flux that enters the room, to which the sum is scaled within its error \[lm\].
     pub fn add_seen(&mut self, mesh: &Mesh, aperture: &Aperture, flux: Estimate, at: impl Fn(&Sensor) -> f64 + Sync) {
         let first = seen_on_patches(mesh, aperture, &rules(3), at);
         let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
@@ -187,7 +194,7 @@ impl FirstLight {
         self.add_diffuse(scaled_to(mesh, entered, first));
     }
 
-    /// Returns the light of the beams on the room's surfaces; `None` without any beam.
+    /// Returns the illuminance of the room's surfaces by the beams and its first reflection; `None` without any beam.
     pub fn landing(&self, mesh: &Mesh) -> Option<BeamLanding> {
         if self.beams.is_empty() {
             return None;
@@ -196,8 +203,7 @@ impl FirstLight {
         let few = merged(&self.beams);
         let mut direct = vec![0.0; mesh.patches.len()];
         few.iter().for_each(|beam| beam.add_to(mesh, &mut direct));
-        // Points see every outline as it is; the patches, from which light is reflected on, see those of a fan
-        // together.
+        // Sensors are lit by every outline separately; for the patches, the outlines of a fan are merged.
         let (reflected, gap) = if few.len() < self.beams.len() {
             patch_illuminances(mesh, &few.iter().flat_map(|beam| beam.outlines(mesh)).collect::<Vec<_>>())
         } else {
@@ -214,8 +220,8 @@ impl FirstLight {
     }
 }
 
-/// Computes the mean illuminance of every patch from the outside seen through the opening by regular transmission,
-/// scaled to the flux that enters; and the relative change by that scaling.
+/// Computes the mean illuminance of every patch by the outside seen through the aperture by regular transmission,
+/// scaled to the flux that enters \[lx\], and the relative change by that scaling.
 fn outside_seen(
     mesh: &Mesh,
     aperture: &Aperture,
@@ -236,7 +242,7 @@ fn outside_seen(
     scaled_to(mesh, flux, first)
 }
 
-/// Returns means over every patch of the light at its points.
+/// Returns the mean over every patch of the illuminance `at` its points. \[lx\]
 fn seen_on_patches(
     mesh: &Mesh,
     aperture: &Aperture,
@@ -254,7 +260,7 @@ fn seen_on_patches(
         .collect()
 }
 
-/// Scales the illuminance of the patches to the flux that enters \[lm\]; returns it with the relative change.
+/// Returns the illuminance of the patches scaled to the flux `flux` that enters \[lm\], with the relative change.
 fn scaled_to(mesh: &Mesh, flux: f64, mut first: Vec<f64>) -> (Vec<f64>, f64) {
     let received: f64 = mesh.patches.iter().zip(&first).map(|(patch, e)| patch.area * e).sum();
     if received <= 0.0 {
@@ -265,21 +271,21 @@ fn scaled_to(mesh: &Mesh, flux: f64, mut first: Vec<f64>) -> (Vec<f64>, f64) {
     (first, (scale - 1.0).abs())
 }
 
-/// Returns the area of a plane convex polygon in space. \[m²\]
+/// Returns the area of a plane convex polygon given by its corners. \[m²\]
 fn area_of(corners: &[DVec3]) -> f64 {
     let Some((&apex, rest)) = corners.split_first() else { return 0.0 };
     0.5 * rest.windows(2).map(|pair| (pair[0] - apex).cross(pair[1] - apex)).sum::<DVec3>().length()
 }
 
-/// Computes the illuminance at a point that has all of the opening in front of it: ground in closed form where nothing
-/// depends on the angle, the sky by a Gauss rule in the two profile angles, in which the opening's near field is
-/// smooth.
+/// Computes the illuminance, by regular transmission, at a point in front of which the whole aperture lies: of the
+/// ground in closed form if τ does not depend on the angle, of the sky by a Gauss rule in the two profile angles, in
+/// which the integrand is smooth near the aperture, too. \[lx\]
 fn seen_from(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, rules: &[Vec<(f64, f64)>]) -> f64 {
     let uniform = tau.constant();
     let mut sum = 0.0;
     let mut bands = vec![view.y];
     if facing.surface == Surface::Facade {
-        // The horizon of the point cuts the opening.
+        // The opening is divided at the sensor's horizon.
         let [low, high] = view.y;
         let level = 0.0_f64.clamp(low, high);
         bands = vec![[level, high]];

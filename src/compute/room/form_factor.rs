@@ -1,13 +1,13 @@
 //! Exchange areas A·F between axis-parallel rectangles of a box, in closed form.
 //!
-//! Both cases are fourth differences of one corner function (inclusion–exclusion over coordinate differences), so a
-//! whole pair of walls shares one table of corner values.
-//! References: Howell, Catalog of Radiation Configuration Factors, C-13 and C-15 (parallel and perpendicular
-//! rectangles with parallel edges).
+//! Both cases are fourth differences of one corner function (inclusion–exclusion over coordinate differences), so that
+//! a whole pair of walls shares one table of corner values. References: Howell, Catalog of Radiation Configuration
+//! Factors, C-13 and C-15 (parallel and perpendicular rectangles with parallel edges).
 
 use std::f64::consts::PI;
 
-/// Returns the corner function of parallel rectangles for offsets x and y and distance z > 0.
+/// Returns the corner function of exchange areas between parallel rectangles for the coordinate differences x and y of
+/// two corners and the distance z > 0 of the planes. \[m²\]
 pub fn parallel_corner(x: f64, y: f64, z: f64) -> f64 {
     let (a, b) = ((x * x + z * z).sqrt(), (y * y + z * z).sqrt());
     let sum = x * x + y * y;
@@ -18,8 +18,8 @@ pub fn parallel_corner(x: f64, y: f64, z: f64) -> f64 {
         / (2.0 * PI)
 }
 
-/// Returns the corner function of perpendicular rectangles: offset u along the common edge's direction, distances x and
-/// y from that edge.
+/// Returns the corner function of exchange areas between perpendicular rectangles for two corners: difference u along
+/// the common edge's direction, distances x and y from that edge. \[m²\]
 pub fn perpendicular_corner(u: f64, x: f64, y: f64) -> f64 {
     let c2 = x * x + y * y;
     let s = u * u + c2;

@@ -1,7 +1,7 @@
-//! Light that a point receives from each patch of the room: configuration factors from shared corner values.
+//! Illuminance at a point by each patch of the room: configuration factors from shared corner values.
 //!
-//! The vector ∫ω dω over a rectangle is a second difference of one corner function of its plane, so every line crossing
-//! of a wall is evaluated once. Patches cut by the point's own plane are clipped.
+//! The vector ∫ω dω over a rectangle is a second difference of one corner function of its plane, so that every crossing
+//! of grid lines of a wall is evaluated once. Patches that the plane of the receiving point cuts are clipped.
 //! Reference: Lambert's edge sum for a rectangle parallel to two axes.
 
 use super::mesh::{Mesh, Patch, Wall};
@@ -9,7 +9,8 @@ use crate::compute::polygon::{clip, projected_solid_angle, vector_solid_angle};
 use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 
-/// Returns weights w with E = Σ w_j B_j at a point from all patches of exitance B_j, whatever they reflect.
+/// Returns the configuration factors w of all patches at a point: its illuminance is E = Σ w_j B_j with the exitances
+/// B_j of the patches. `position` and `normal`: of the receiving plane, room's frame.
 pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec<f64> {
     let mut weights = vec![0.0; mesh.patches.len()];
     for wall in &mesh.walls {
@@ -25,19 +26,21 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
     weights
 }
 
-/// [`configuration_factors`] for an exitance that varies within the patches. Patches near the point have the slopes
-/// that their neighbours give, with their mean kept.
+/// Weights of the patches' exitances in the illuminance at a point, for an exitance that varies within the patches:
+/// patches near the point have slopes from the differences to their neighbours, and their mean is unchanged.
 ///
-/// A patch close to the point covers much of what the point sees, and a constant there errs in first order of its size.
+/// A patch close to the point covers much of its hemisphere, and a constant exitance causes an error of first order in
+/// the size of the patch.
 #[derive(Debug, Clone)]
 pub struct Reconstruction {
-    /// Weights w with E = Σ w_j B_j.
+    /// Weights w with the illuminance E = Σ w_j B_j from the mean exitances B_j of the patches.
     pub weights: Vec<f64>,
-    /// Part of the weights that is due to the slopes: its sum shows how much the patches near the point matter.
+    /// Part of `weights` by the slopes; with the exitances it shows how much patches near the point matter.
     pub slopes: Vec<f64>,
 }
 
-/// Computes the weights and slopes at a point.
+/// Computes the weights of the patches' exitances at a point, with slopes within near patches. `position` and `normal`:
+/// of the receiving plane, room's frame.
 pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstruction {
     let mut weights = configuration_factors(mesh, position, normal);
     let mut slopes = vec![0.0; weights.len()];
@@ -58,7 +61,7 @@ pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstructio
                     x - x.clamp(patch.extent[side][0], patch.extent[side][1])
                 });
                 let away = DVec3::new(gap[0], gap[1], distance).length();
-                // The slack keeps decisions the same for a room in another unit.
+                // The slack keeps rounding from deciding, so that results do not depend on the unit of length.
                 let ratio = size[0].max(size[1]) / away - 1e-9;
                 if ratio < NEAR || weights[at] == 0.0 {
                     continue;
@@ -66,7 +69,7 @@ pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstructio
                 let moments =
                     moments(wall, patch, position, normal, ((4.0 * ratio).ceil() as usize).clamp(2, MOST_PARTS));
                 for side in 0..2 {
-                    // The slope between the neighbours' middles, as far as they are of the same surface.
+                    // Slope between the centres of the neighbouring patches, if these belong to the same surface.
                     let neighbour = |step: isize| {
                         let mut cell = [i, j];
                         cell[side] = cell[side].checked_add_signed(step).filter(|k| *k < counts[side])?;
@@ -89,17 +92,18 @@ pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstructio
     Reconstruction { weights, slopes }
 }
 
-/// Ratio of a patch's size to its distance above which its slopes count. Chosen: cost; what the slopes leave is stated
-/// as error. No test of its own.
+/// Ratio of a patch's size to its distance from the point above which its slopes count. Chosen: cost; the error that
+/// remains with the slopes is stated. No test of its own.
 const NEAR: f64 = 0.5;
 
-/// Returns ∫ (x − x̄) dF over a patch along both its sides, by parts of the patch. \[m\]
+/// Returns ∫ (x − x̄) dF over a patch along both its sides, with F the configuration factor, from `parts`² parts of the
+/// patch. \[m\]
 fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: usize) -> [f64; 2] {
     let line = |side: usize, k: usize| {
         let [from, to] = patch.extent[side];
         from + (to - from) * k as f64 / parts as f64
     };
-    // What each part gives to the sums.
+    // Contribution of each part to the sums.
     let mut sums = [0.0; 2];
     let add = |i: usize, j: usize, factor: f64| {
         for (side, k) in [i, j].into_iter().enumerate() {
@@ -115,10 +119,10 @@ fn moments(wall: &Wall, patch: &Patch, position: DVec3, normal: DVec3, parts: us
 /// Maximum number of parts along each side of a near patch. Chosen: cost; results change within their stated error.
 const MOST_PARTS: usize = 12;
 
-/// A point and its normal in a wall's own coordinates.
+/// Receiving point and its normal in the coordinates of a wall.
 struct Plane {
     position: DVec3,
-    /// Normal in the room frame.
+    /// Normal in the room's frame.
     room_normal: DVec3,
     origin: [f64; 2],
     distance: f64,
@@ -136,8 +140,8 @@ impl Plane {
         }
     }
 
-    /// Returns a line of the wall at a coordinate along one of its axes. A plane parallel to the lines cuts cells as
-    /// one more line does: lines behind it are moved to it.
+    /// Returns a grid line of the wall at a coordinate along one of its axes. A receiving plane parallel to the lines
+    /// cuts cells like an additional line: lines behind it are replaced by it.
     fn line(&self, axis: usize, at: f64) -> Line {
         let behind = self.is_parallel(axis) && self.normal[axis] * (at - self.origin[axis]) < 0.0;
         let from = if behind { 0.0 } else { at - self.origin[axis] };
@@ -145,7 +149,7 @@ impl Plane {
         Line { from, inverse, weight: inverse * (from * self.normal.z - self.distance * self.normal[axis]) }
     }
 
-    /// Whether the point's plane is parallel to the lines of one coordinate.
+    /// Whether the receiving plane is parallel to the grid lines of one coordinate.
     fn is_parallel(&self, axis: usize) -> bool {
         self.normal.z == 0.0 && self.normal[1 - axis] == 0.0
     }
@@ -153,17 +157,18 @@ impl Plane {
     /// Returns n·∫ω dω over the quadrant of the wall that ends in the corner of two lines, except for parts that cancel
     /// in second differences.
     fn corner(a: &Line, b: &Line) -> f64 {
-        // Of a plane at right angles to the wall one of the two may have no share.
+        // For a receiving plane perpendicular to the wall, the weight of one of the two lines may be 0.
         let edge =
             |of: &Line, to: &Line| if of.weight == 0.0 { 0.0 } else { of.weight * (to.from * of.inverse).atan() };
         0.5 * (edge(a, b) + edge(b, a))
     }
 
-    /// Calls `take` with the two indices of every cell between lines on the wall and its configuration factor.
+    /// Calls `take` with the two indices of every cell between grid lines on the wall, and with its configuration
+    /// factor.
     fn cells(&self, wall: &Wall, at: [&[f64]; 2], mut take: impl FnMut(usize, usize, f64)) {
         let lines = [0, 1].map(|axis| at[axis].iter().map(|&at| self.line(axis, at)).collect::<Vec<Line>>());
         let is_cut_by_lines = self.is_parallel(0) || self.is_parallel(1);
-        // Of other planes, no value is asked for of corners behind them.
+        // For other planes, corners behind the plane are not evaluated.
         let corner = |a: &Line, b: &Line| {
             let seen = is_cut_by_lines || self.normal.dot(DVec3::new(a.from, b.from, self.distance)) > 0.0;
             (if seen { Self::corner(a, b) } else { 0.0 }, seen)
@@ -202,7 +207,7 @@ impl Plane {
     }
 }
 
-/// A line of a wall.
+/// Grid line of a wall, relative to the receiving point.
 struct Line {
     /// Signed distance of the line from the point's foot along the wall. \[m\]
     from: f64,
@@ -212,19 +217,20 @@ struct Line {
     weight: f64,
 }
 
-/// Returns the configuration factor at a point of one polygon on a wall, given by its corners in the wall's own two
-/// coordinates.
+/// Returns the configuration factor at a point of a convex polygon on a wall, given by its corners in the coordinates
+/// of the wall. `position` and `normal`: of the receiving plane, room's frame.
 pub fn polygon_factor(wall: &Wall, polygon: &[DVec2], position: DVec3, normal: DVec3) -> f64 {
     let corners: Vec<DVec3> = polygon.iter().map(|p| wall.point(p.x, p.y)).collect();
     corners_factor(wall, &corners, position, normal)
 }
 
-/// Returns the configuration factor at a point of one polygon on a wall, given by its corners in the room.
+/// Returns the configuration factor at a point of a convex polygon on a wall, given by its corners in the room's frame.
+/// `position` and `normal`: of the receiving plane, room's frame.
 pub fn corners_factor(wall: &Wall, corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     if wall.normal.dot(position - wall.point(0.0, 0.0)) <= 0.0 {
         return 0.0;
     }
-    // Most of what lies on the floor is behind a desk.
+    // Quick test: most patches of the floor lie behind a sensor on the work plane.
     let height = normal.dot(position);
     if corners.iter().all(|corner| normal.dot(*corner) <= height) {
         return 0.0;

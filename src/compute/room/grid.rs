@@ -1,5 +1,5 @@
-//! Light that differs from place to place of an aperture, on a grid of points with parabolas between each three of
-//! them.
+//! Interpolation of luminances that vary over the area of an aperture, on a grid of points with parabolas through each
+//! three of them.
 
 use super::aperture::{Aperture, View};
 use super::through;
@@ -9,47 +9,50 @@ use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Number of lines along each side: odd, for parabolas through three lines each. Chosen: cost; held by the test
-/// `a_sensor_sees_what_the_aperture_shows_there` (2e-3).
+/// Number of grid lines along each side of an aperture: odd, for parabolas through three lines each. Chosen: cost; held
+/// by the test `a_sensor_sees_what_the_aperture_shows_there` (2e-3).
 const LINES: usize = 13;
 /// Distance of the outermost lines from the borders, relative to the side: a point on the border may lie in a box that
 /// touches it. Chosen: far above the rounding of positions; a millimetre on a side of 2 m.
 const INSET: f64 = 5e-4;
-/// Number of Gauss points between three lines: exact for a parabola times a polynomial of degree five.
+/// Number of Gauss points between three grid lines: exact for a parabola times a polynomial of degree five.
 const RULE: usize = 4;
-/// Number of directions in which a sensor samples the places on an aperture that its light comes from: a power of two,
-/// as [`net`] needs. Chosen: cost; only places are sampled, solid angles are exact.
+/// Number of directions from a sensor in which the points of an aperture are sampled, a power of two, required by
+/// [`net`]. Chosen: cost; only the positions are sampled, solid angles are exact.
 const DIRECTIONS: u32 = 4096;
 /// Number of points of an aperture that are tested for direct sun. Chosen: cost; 24 per point of the grid.
 const POINTS: u32 = 4096;
 
-/// Points of an aperture, close together along its borders, where light changes fast beside an obstruction.
+/// Grid of points on an aperture, close together along its borders, where the visible outside changes fast beside an
+/// obstruction.
 #[derive(Debug, Clone)]
 pub struct Grid {
     aperture: Aperture,
-    /// Positions of the lines as shares of a side.
+    /// Positions of the grid lines as shares of a side.
     lines: Vec<f64>,
 }
 
-/// Indices of a grid's points with their weights.
+/// Indices of points of a grid on an aperture with their weights.
 pub type Weights = Vec<(u16, f32)>;
 
-/// Cells of light that a sensor sees, with the points where it leaves the aperture. \[sr\]
+/// Emergent cells that a sensor sees, each with the grid points of the aperture through which it sees them and their
+/// weights. \[sr\]
 pub type CellWeights = Vec<(usize, Weights)>;
 
 impl Grid {
-    /// Creates the grid of an aperture with Chebyshev's points along each side.
+    /// Creates the grid of an aperture with Chebyshev points along each side.
     pub fn of(aperture: &Aperture) -> Self {
         let line = |k: usize| 0.5 - (0.5 - INSET) * (PI * k as f64 / (LINES - 1) as f64).cos();
         Self { aperture: *aperture, lines: (0..LINES).map(line).collect() }
     }
 
-    /// Returns the share of the aperture that each point represents.
+    /// Returns the share of the aperture's area that each grid point represents.
     pub fn parts(&self) -> Vec<f64> {
         self.integrals(|_| 1.0, |_| 1.0)
     }
 
-    /// Returns integrals of the interpolation weights of all points times a function of each side.
+    /// Returns for every grid point the integral over the aperture of its interpolation weight times a function of each
+    /// coordinate; coordinates are shares of the sides.
     pub fn integrals(&self, of_x: impl Fn(f64) -> f64, of_y: impl Fn(f64) -> f64) -> Vec<f64> {
         let side = |of: &dyn Fn(f64) -> f64| {
             let mut sums = vec![0.0; self.lines.len()];
@@ -68,24 +71,24 @@ impl Grid {
         y.iter().flat_map(|y| x.iter().map(move |x| x * y)).collect()
     }
 
-    /// Returns the points as shares of the sides.
+    /// Returns the coordinates of the grid points as shares of the sides, from the lower left.
     pub fn shares(&self) -> Vec<[f64; 2]> {
         self.lines.iter().flat_map(|y| self.lines.iter().map(|x| [*x, *y])).collect()
     }
 
-    /// Returns the number of points.
+    /// Returns the number of grid points.
     pub fn count(&self) -> usize {
         self.lines.len().pow(2)
     }
 
-    /// Returns the points in the room frame. \[m\]
+    /// Returns the positions of the grid points in the room's frame. \[m\]
     pub fn places(&self) -> Vec<DVec3> {
         let [u, v] = [DVec3::X, DVec3::Y].map(|axis| self.aperture.surface.room_from_facade(axis));
         let [u, v] = [self.aperture.size[0] * u, self.aperture.size[1] * v];
         self.shares().into_iter().map(|[x, y]| self.aperture.corner + x * u + y * v).collect()
     }
 
-    /// Returns the three lines around a place on a side with their weights.
+    /// Returns the three grid lines around a position on a side with their interpolation weights.
     fn along(&self, at: f64) -> [(usize, f64); 3] {
         let first = (self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 2) - 1) / 2 * 2;
         let [a, b, c] = [0, 1, 2].map(|k| self.lines[first + k]);
@@ -96,16 +99,16 @@ impl Grid {
         ]
     }
 
-    /// Returns the points around a place, given as shares of the sides, with their weights.
+    /// Returns the grid points around a position, given as shares of the sides, with their interpolation weights.
     fn around(&self, place: [f64; 2]) -> impl Iterator<Item = (usize, f64)> + use<> {
         let ([along, across], count) = (place.map(|at| self.along(at)), self.lines.len());
         across.into_iter().flat_map(move |(k, b)| along.map(|(i, a)| (k * count + i, a * b)))
     }
 
-    /// Returns, for every cell of the light that a sensor sees, the points where the light leaves the aperture, with
-    /// weights that sum to the cell's projected solid angle. \[sr\] `cells`: indices and projected solid angles of
-    /// these cells; `cell`: returns the index of the cell that holds a direction of the façade frame; `middle`: returns
-    /// the direction in the middle of a cell.
+    /// Returns, for every emergent cell that a sensor sees, the grid points through which it sees the cell, with
+    /// weights that add up to the cell's projected solid angle. \[sr\] `cells`: indices and projected solid angles of
+    /// these cells; `cell`: returns the index of the cell that contains a direction of the façade frame; `middle`:
+    /// returns the direction in the middle of a cell.
     pub fn by_cell(
         &self,
         view: &View,
@@ -124,7 +127,8 @@ impl Grid {
         });
         let one = |(cell, counts): (usize, f64)| {
             let sums = seen.entry(cell).or_insert_with(|| {
-                // None of the directions: its middle, or what of the aperture is nearest to that.
+                // Without any direction in the cell, its middle represents it, or the point of the aperture nearest to
+                // that.
                 let (towards, mut sums) = (middle(cell), BTreeMap::new());
                 let share = |at: f64, [low, high]: [f64; 2]| {
                     ((at / towards.z.max(1e-9) * view.distance - low) / (high - low)).clamp(0.0, 1.0)
@@ -138,7 +142,7 @@ impl Grid {
         cells.filter(|(_, counts)| *counts != 0.0).map(one).collect()
     }
 
-    /// Returns the point nearest to a place, given as shares of the sides.
+    /// Returns the index of the grid point nearest to a position, given as shares of the sides.
     fn near(&self, place: [f64; 2]) -> usize {
         let [i, k] = place.map(|at| {
             let after = self.lines.partition_point(|line| *line <= at).clamp(1, self.lines.len() - 1);
@@ -147,8 +151,8 @@ impl Grid {
         k * self.lines.len() + i
     }
 
-    /// Returns, for every point, the sunlit share of the places nearest to it. `pieces`: convex sunlit pieces of the
-    /// aperture, room frame.
+    /// Returns, for every grid point, the sunlit share of the area nearest to it, 0 … 1. `pieces`: corners of the
+    /// convex sunlit pieces of the aperture, room's frame. \[m\]
     pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
         let flat = |corner: &DVec3| {
             let to = self.aperture.surface.facade_from_room(*corner - self.aperture.corner);
@@ -160,7 +164,7 @@ impl Grid {
             sides().all(|side| side >= 0.0) || sides().all(|side| side <= 0.0)
         };
         let (mut lit, mut all) = (vec![0.0; self.count()], vec![0.0; self.count()]);
-        // The points themselves, too: little is nearest to one in a corner.
+        // The points themselves are added, because a point in a corner is nearest to few others.
         for place in (0..POINTS).map(|number| net(number, 1)).chain(self.shares()) {
             let reached = pieces.iter().any(|piece| holds(piece, DVec2::from_array(place)));
             let near = self.near(place);

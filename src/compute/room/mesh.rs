@@ -1,86 +1,88 @@
-//! The surfaces of the box, cut into rectangular patches that end at the apertures' borders, in three nested densities.
+//! Division of the surfaces of a box room into rectangular patches with borders along the apertures, in three nested
+//! densities.
 //!
-//! Patches are smaller near the surfaces that hold apertures, where the first light changes fastest. Nested densities
-//! let one table of exchange areas serve all three, and their differences tell the error of the finest.
+//! Patches are smaller near the surfaces with apertures, where the direct illuminance changes fastest. Because the
+//! densities are nested, one table of exchange areas serves all three, and their differences show the error of the
+//! finest.
 
 use super::aperture::Aperture;
 use crate::compute::direction::Surface;
 use crate::compute::limits;
 use glam::DVec3;
 
-/// A box room: 0 ≤ x ≤ width, 0 ≤ y ≤ depth, 0 ≤ z ≤ height, with diffuse reflectances.
+/// Box room 0 ≤ x ≤ width, 0 ≤ y ≤ depth, 0 ≤ z ≤ height in the room's frame, with diffuse reflectances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxRoom {
-    /// Width, depth, height. \[m\]
+    /// Width, depth and height of the room. \[m\]
     pub size: DVec3,
-    /// Reflectance of the floor.
+    /// Diffuse reflectance of the floor, 0 … 1.
     pub floor: f64,
-    /// Reflectance of the four walls, outside the apertures.
+    /// Diffuse reflectance of the four walls outside the apertures, 0 … 1.
     pub walls: f64,
-    /// Reflectance of the ceiling, outside the apertures.
+    /// Diffuse reflectance of the ceiling outside the apertures, 0 … 1.
     pub ceiling: f64,
 }
 
-/// One side of the box with its grid.
+/// One of the six surfaces of a box room (wall, floor or ceiling) with the grid lines of its patches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// Axis across the wall, 0, 1 or 2: the wall lies in x, y or z = `position`.
+    /// Index of the room axis perpendicular to the wall: the wall lies in the plane x (0), y (1) or z (2) = `position`.
     pub axis: usize,
-    /// Coordinate of the wall along `axis`. \[m\]
+    /// Coordinate of the wall's plane along `axis`. \[m\]
     pub position: f64,
     /// Unit normal that points into the room.
     pub normal: DVec3,
-    /// The two axes along the wall, in rising order.
+    /// Indices of the two room axes along the wall, rising.
     pub along: [usize; 2],
-    /// Grid lines along the two axes of the wall. \[m\]
+    /// Coordinates of the grid lines along the two axes of the wall, rising. \[m\]
     pub lines: [Vec<f64>; 2],
     /// Index of the wall's first patch among all patches.
     pub first: usize,
 }
 
-/// A rectangular patch of a wall.
+/// Rectangular patch of a wall, floor or ceiling, or of an aperture in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Patch {
     /// Index of the patch's wall.
     pub wall: usize,
-    /// Lower and upper limit along each of the wall's two axes. \[m\]
+    /// Lower and upper limit of the patch along each of the wall's two axes. \[m\]
     pub extent: [[f64; 2]; 2],
     /// Area of the patch. \[m²\]
     pub area: f64,
-    /// Diffuse reflectance.
+    /// Diffuse reflectance of the patch, 0 … 1.
     pub reflectance: f64,
-    /// Index of the aperture that the patch is part of; `None` on bare wall.
+    /// Index of the aperture that the patch belongs to; `None` for a patch of the wall itself.
     pub aperture: Option<usize>,
 }
 
-/// Patches of all six sides: floor, ceiling, x = 0, x = width, façade, back wall.
+/// Patches of all six surfaces of a box room: floor, ceiling, x = 0, x = width, façade, back wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
-    /// The six sides.
+    /// The six surfaces: floor, ceiling, x = 0, x = width, façade (y = 0), back wall.
     pub walls: Vec<Wall>,
-    /// Patches wall by wall, first axis slowest.
+    /// Patches wall by wall; within a wall the index along its first axis varies slowest.
     pub patches: Vec<Patch>,
 }
 
-/// Maximum number of patches of a room. Exchange areas are kept between them and the patches of twice their size: 0.1
-/// GB at this limit.
+/// Maximum number of fine patches of a room. Exchange areas are stored between them and the patches of twice their
+/// size: 0.1 GB at this limit.
 pub const MOST_PATCHES: usize = limits::PATCHES;
 
-/// Error of apertures whose borders cut the walls into more patches than can be balanced.
+/// Error of a room whose apertures' borders divide the surfaces into more patches than are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the borders of {apertures} apertures cut the room into {patches} patches (allowed: {MOST_PATCHES}); line the \
      apertures up, join neighbours, or leave interreflection out"
 )]
 pub struct TooManyPatches {
-    /// Number of apertures.
+    /// Number of apertures of the room.
     pub apertures: usize,
-    /// Number of patches that the borders of the apertures alone make.
+    /// Number of patches by the borders of the apertures alone.
     pub patches: usize,
 }
 
 impl Wall {
-    /// Returns the point of the wall with the given two coordinates.
+    /// Returns the point of the wall with the coordinates `a` and `b` along its two axes, in the room's frame. \[m\]
     pub fn point(&self, a: f64, b: f64) -> DVec3 {
         let mut point = DVec3::ZERO;
         point[self.axis] = self.position;
@@ -89,41 +91,47 @@ impl Wall {
         point
     }
 
-    /// Returns the range of indices of the wall's patches.
+    /// Returns the range of the indices of the wall's patches among all patches of the mesh.
     pub fn patches(&self) -> std::ops::Range<usize> {
         self.first..self.first + (self.lines[0].len() - 1) * (self.lines[1].len() - 1)
     }
 }
 
 impl Patch {
-    /// Returns the corners in order round the patch.
+    /// Returns the corners of the patch in order, in the room's frame. \[m\] `wall`: wall of the patch.
     pub fn corners(&self, wall: &Wall) -> [DVec3; 4] {
         let [a, b] = self.extent;
         [wall.point(a[0], b[0]), wall.point(a[1], b[0]), wall.point(a[1], b[1]), wall.point(a[0], b[1])]
     }
 }
 
-/// Meshes of one room in three densities; each patch of one lies in one patch of the next coarser.
+/// Meshes of one room in three nested densities; each patch lies in one patch of the next coarser mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Nested {
-    /// Patches that emit and receive; cells of the next density are made of up to 2 × 2 of these.
+    /// Finest mesh, on which illuminances are given; a patch of the next density consists of up to 2 × 2 of its
+    /// patches.
     pub fine: Mesh,
-    /// Patches between which light is balanced.
+    /// Mesh between whose patches the interreflection is solved.
     pub coarse: Mesh,
-    /// Patches of twice the size of those of `coarse`, from which the error of the balance is estimated.
+    /// Mesh with patches of twice the size of those of `coarse`, from which the error of the interreflection is
+    /// estimated.
     pub coarser: Mesh,
-    /// Index of the coarse patch that holds each fine patch.
+    /// Index of the coarse patch that contains each fine patch.
     pub coarse_of_fine: Vec<usize>,
-    /// Index of the coarser patch that holds each coarse patch.
+    /// Index of the coarser patch that contains each coarse patch.
     pub coarser_of_coarse: Vec<usize>,
 }
 
 impl Nested {
-    /// Creates meshes with about `count` fine patches. `aperture_reflectance`: reflectance of the room side of each
+    /// Creates the meshes of a room with about `count` fine patches. `aperture_reflectance`: reflectance of the room
+    /// side of each aperture.
+    ///
+    /// The borders of apertures are grid lines on all walls along the same axis, up to 2.5 `count` patches. If that
+    /// would leave too few lines along the other axes (many strips), they are grid lines only on the surface of the
     /// aperture.
     ///
-    /// The borders of apertures are lines on all walls that share the axis, up to 2.5 `count` patches. Where that would
-    /// leave too few lines along the other axes (many strips), only the surface that holds an aperture keeps them.
+    /// # Errors
+    /// Returns an error if the borders of the apertures alone divide the room into more than [`MOST_PATCHES`] patches.
     pub fn with_about(
         room: &BoxRoom,
         apertures: &[Aperture],
@@ -135,7 +143,7 @@ impl Nested {
         let mut segments = Segments::new(room, apertures, Cuts::Everywhere);
         let mut step = segments.step(wanted, (5 * count / 4).min(MOST_PATCHES));
         if step > COARSENED * wanted {
-            // What the borders add to the bare room's patches is beside the count.
+            // Patches added by the borders of apertures do not count towards `count`.
             segments = Segments::new(room, apertures, Cuts::OwnSurface);
             let bare = Segments::new(room, apertures, Cuts::None).step(wanted, (5 * count / 4).min(MOST_PATCHES));
             step = segments.step(bare, (4 * count).min(MOST_PATCHES));
@@ -152,27 +160,28 @@ impl Nested {
 }
 
 /// Whether an aperture is too small for patches. Exchange areas are differences of numbers of the order of the room's
-/// own size squared, so that an opening below a hundred-millionth of that would be lost in their rounding. The light of
-/// such an aperture is computed from its outline, and its reflectance is that of the wall around it.
+/// size squared, so that an aperture below a hundred-millionth of that would be lost in their rounding. The illuminance
+/// by such an aperture is computed from its outline, and its reflectance is that of the wall around it.
 pub fn too_small(room: &BoxRoom, aperture: &Aperture) -> bool {
     let length = room.size.max_element();
     aperture.area() < 1e-8 * length * length || aperture.size[0].min(aperture.size[1]) < 1e-7 * length
 }
 
-/// Maximum step, relative to the wanted one, up to which the apertures' borders run as lines round the whole room.
-/// Chosen: cost; results change within their stated error.
+/// Maximum step of the grid lines, relative to the intended one, up to which the apertures' borders are grid lines on
+/// all surfaces. Chosen: cost; results change within their stated error.
 const COARSENED: f64 = 1.5;
 
-/// The six sides in the order that [`Mesh`] states: axis across the side, and whether the side lies at the axis's far
-/// end.
+/// The six surfaces in the order of [`Mesh`]: index of the perpendicular axis, and whether the surface lies at the far
+/// end of that axis.
 const SIDES: [(usize, bool); 6] = [(2, false), (2, true), (0, false), (0, true), (1, false), (1, true)];
 
-/// Returns the two axes along a side in rising order, the same for opposite walls, as exchange areas need.
+/// Returns the two axes along a surface in rising order, the same for opposite walls; required by the exchange areas.
 const fn along(axis: usize) -> [usize; 2] {
     [if axis == 0 { 1 } else { 0 }, if axis == 2 { 1 } else { 2 }]
 }
 
-/// Returns the surface of a side that can hold apertures: ceiling (roof lights) and façade only.
+/// Returns the surface for apertures in one of the six surfaces: ceiling (roof lights) and façade only; `None` for the
+/// others.
 fn surface_of(side: usize) -> Option<Surface> {
     match side {
         1 => Some(Surface::Roof),
@@ -182,8 +191,9 @@ fn surface_of(side: usize) -> Option<Surface> {
 }
 
 impl Mesh {
-    /// Creates patches between given rising lines along both axes of every side; the lines must hold the apertures'
-    /// borders.
+    /// Creates the mesh from the coordinates of grid lines along both axes of each of the six surfaces, rising; the
+    /// lines must include the apertures' borders. `aperture_reflectance`: reflectance of the room side of each
+    /// aperture. \[m\]
     pub fn from_lines(
         room: &BoxRoom,
         apertures: &[Aperture],
@@ -215,7 +225,7 @@ impl Mesh {
                     let centre = wall.point(0.5 * (a[0] + a[1]), 0.5 * (b[0] + b[1]));
                     let aperture = apertures.iter().position(|aperture| {
                         let offset = aperture.surface.facade_from_room(centre - aperture.corner);
-                        // The offset is along the surface alone; the surface itself must be asked for.
+                        // Only the offset along the surface is compared, so that the surface must be checked, too.
                         surface == Some(aperture.surface)
                             && !too_small(room, aperture)
                             && (0.0..aperture.size[0]).contains(&offset.x)
@@ -235,7 +245,8 @@ impl Mesh {
         mesh
     }
 
-    /// Returns, for every patch of a finer mesh that has all lines of this one, the index of the patch that holds it.
+    /// Returns, for every patch of a finer mesh that has all grid lines of this one, the index of the patch that
+    /// contains it.
     fn holders(&self, finer: &Self) -> Vec<usize> {
         let mut holders = Vec::with_capacity(finer.patches.len());
         for (wall, fine) in self.walls.iter().zip(&finer.walls) {
@@ -247,12 +258,12 @@ impl Mesh {
     }
 }
 
-/// Returns, for every interval of `fine`, the index of the interval of `coarse` that holds its middle.
+/// Returns, for every interval of `fine`, the index of the interval of `coarse` that contains its middle.
 fn holding_intervals(coarse: &[f64], fine: &[f64]) -> Vec<usize> {
     fine.windows(2).map(|pair| coarse.partition_point(|line| *line <= 0.5 * (pair[0] + pair[1])) - 1).collect()
 }
 
-/// Rule that says on which sides the borders of an aperture are grid lines.
+/// Surfaces on which the borders of an aperture are grid lines.
 #[derive(Clone, Copy, PartialEq)]
 enum Cuts {
     Everywhere,
@@ -260,16 +271,17 @@ enum Cuts {
     None,
 }
 
-/// Pieces between forced lines along both axes of every side.
+/// Segments between the apertures' borders along both axes of every surface, for the choice of grid lines.
 struct Segments {
     sides: [[Axis; 2]; 6],
 }
 
-/// One axis of a side: forced lines, and the widening of the step away from an end that holds apertures.
+/// One axis of a surface: the apertures' borders, and the increase of the step with the distance from the end that has
+/// apertures.
 struct Axis {
     cuts: Vec<f64>,
     length: f64,
-    /// Distance from the end with apertures over which the step stays small; `None`: uniform steps. \[m\]
+    /// Distance from the end with apertures over which the step is small \[m\]; `None` for uniform steps.
     near: Option<f64>,
     /// Whether the apertures lie at the far end.
     reversed: bool,
@@ -277,7 +289,7 @@ struct Axis {
 
 impl Segments {
     fn new(room: &BoxRoom, apertures: &[Aperture], rule: Cuts) -> Self {
-        // The first light falls off over the aperture's own width.
+        // The direct illuminance decreases over a distance of about the aperture's width.
         let near = |surface: Surface, length: f64| {
             apertures
                 .iter()
@@ -308,13 +320,14 @@ impl Segments {
         Self { sides: std::array::from_fn(|side| along(SIDES[side].0).map(|a| axis(side, a))) }
     }
 
-    /// Returns the number of fine patches at a step.
+    /// Returns the number of fine patches with a step. \[m\]
     fn patches(&self, step: f64) -> usize {
         let on = |axis: &Axis| axis.parts(step).iter().sum::<usize>();
         self.sides.iter().map(|[a, b]| on(a) * on(b)).sum()
     }
 
-    /// Returns the smallest step from `wanted` that makes at most `allowed` patches, or as few as the cuts alone.
+    /// Returns the smallest step, `wanted` or larger, with at most `allowed` fine patches, or with as few as the
+    /// borders alone require. \[m\]
     fn step(&self, wanted: f64, allowed: usize) -> f64 {
         let allowed = allowed.max(self.patches(f64::INFINITY));
         let mut step = wanted;
@@ -324,14 +337,15 @@ impl Segments {
         step
     }
 
-    /// Returns the lines of the three densities, coarsest first.
+    /// Returns the grid lines of the three densities, coarsest first. \[m\]
     fn lines(&self, step: f64) -> [[[Vec<f64>; 2]; 6]; 3] {
         [4, 2, 1].map(|every| self.sides.each_ref().map(|side| side.each_ref().map(|axis| axis.lines(step, every))))
     }
 }
 
 impl Axis {
-    /// Returns a position in units of the local step's widening; [`Self::unstretched`] is the inverse.
+    /// Returns the transformed coordinate of a position along the axis, in which steps are uniform;
+    /// [`Self::unstretched`] is the inverse.
     fn stretched(&self, x: f64) -> f64 {
         match self.near {
             None => x,
@@ -354,12 +368,12 @@ impl Axis {
         }
     }
 
-    /// Returns the number of fine parts of every segment: a multiple of four, or two or one for a short segment.
+    /// Returns the number of fine intervals in every segment: a multiple of four, or two or one for a short segment.
     fn parts(&self, step: f64) -> Vec<usize> {
         self.cuts
             .windows(2)
             .map(|pair| {
-                // The slack keeps decisions the same for a room in another unit.
+                // The slack keeps rounding from deciding, so that results do not depend on the unit of length.
                 let wanted = (self.stretched(pair[1]) - self.stretched(pair[0])) / step - 1e-9;
                 if wanted <= 0.75 {
                     1
@@ -372,13 +386,13 @@ impl Axis {
             .collect()
     }
 
-    /// Returns every `every`-th of the fine lines of each segment.
+    /// Returns every `every`-th of the fine grid lines of each segment.
     fn lines(&self, step: f64, every: usize) -> Vec<f64> {
         let mut lines = vec![0.0];
         for (pair, parts) in self.cuts.windows(2).zip(self.parts(step)) {
             let (from, to) = (self.stretched(pair[0]), self.stretched(pair[1]));
             let kept = (parts / every).max(1);
-            // The same expression for the same line in all densities.
+            // One expression for a line in all densities, so that equal lines are equal to the last bit.
             lines.extend(
                 (1..kept).map(|k| self.unstretched(from + (to - from) * ((k * parts / kept) as f64 / parts as f64))),
             );
@@ -388,8 +402,8 @@ impl Axis {
     }
 }
 
-/// Returns 0, the apertures' borders and the length, in rising order. Borders closer than rounding to each other or to
-/// the ends are merged.
+/// Returns 0, the apertures' borders and the length of the axis, rising. Borders that coincide with each other or with
+/// an end to rounding are merged.
 fn forced_lines(length: f64, mut cuts: Vec<f64>) -> Vec<f64> {
     let slack = 1e-9 * length;
     cuts.retain(|c| *c > slack && *c < length - slack);

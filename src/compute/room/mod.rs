@@ -1,4 +1,4 @@
-//! Light in a box room: apertures, the near field at a sensor, interreflection.
+//! Illuminance in a box room: apertures, direct light at sensors near to them, interreflection.
 
 pub mod aperture;
 pub mod back_reflection;

@@ -1,4 +1,4 @@
-//! Light that differs from place to place of an aperture, as polynomials between nodes at Gauss's points.
+//! Interpolation of luminances that vary over the area of an aperture, by polynomials through nodes at Gauss points.
 
 use super::aperture::{Aperture, View};
 use super::grid::Grid;
@@ -8,19 +8,19 @@ use crate::compute::direction::Dir;
 use crate::compute::quadrature::gauss_legendre;
 use glam::{DVec2, DVec3};
 
-/// Number of directions in which a patch of the room samples the places on an aperture that its light comes from: a
-/// power of two, as [`through::spread`] needs. Chosen: cost. No test of its own.
+/// Number of directions from a patch of the room in which the points of an aperture are sampled: a power of two,
+/// required by [`through::spread`]. Chosen: cost. No test of its own.
 const DIRECTIONS: u32 = 256;
 
-/// Nodes of an aperture and the polynomials that are 1 at one of them and 0 at the others.
+/// Nodes on an aperture, each with the polynomial over the aperture that is 1 at this node and 0 at the others.
 #[derive(Debug, Clone)]
 pub struct Nodes {
     aperture: Aperture,
-    /// Gauss's points and weights along both sides, relative to the side.
+    /// Gauss points and weights along both sides, relative to the side.
     sides: [Vec<(f64, f64)>; 2],
 }
 
-/// Returns the values at a place of the polynomials of one side.
+/// Returns the values of the polynomials of one side at a position, a share of the side.
 fn values(side: &[(f64, f64)], at: f64) -> impl Iterator<Item = f64> + '_ {
     (0..side.len()).map(move |k| {
         let others = side.iter().enumerate().filter(|(other, _)| *other != k);
@@ -29,19 +29,19 @@ fn values(side: &[(f64, f64)], at: f64) -> impl Iterator<Item = f64> + '_ {
 }
 
 impl Nodes {
-    /// Creates `long` nodes along the longer side of an aperture and `short` ones along the other.
+    /// Creates the nodes of an aperture: `long` of them along its longer side and `short` along the other.
     pub fn new(aperture: &Aperture, long: usize, short: usize) -> Self {
         let tall = aperture.size[1] > aperture.size[0];
         let counts = if tall { [short, long] } else { [long, short] };
         Self { aperture: *aperture, sides: counts.map(gauss_legendre) }
     }
 
-    /// Returns the number of nodes.
+    /// Returns the number of nodes of the aperture.
     pub fn count(&self) -> usize {
         self.sides[0].len() * self.sides[1].len()
     }
 
-    /// Adds the values of all polynomials at a place, shares of the sides, times a factor.
+    /// Adds the values of all polynomials at a position, given as shares of the sides, times a factor to `sums`.
     fn add_values(&self, place: [f64; 2], factor: f64, sums: &mut [f64]) {
         let along: Vec<f64> = values(&self.sides[0], place[0]).collect();
         for (row, across) in sums.chunks_exact_mut(along.len()).zip(values(&self.sides[1], place[1])) {
@@ -49,8 +49,8 @@ impl Nodes {
         }
     }
 
-    /// Adds the projected solid angle of each polynomial as luminance of the aperture, seen from a point: by cell of
-    /// the direction, then by node, as a sum over directions. \[sr\]
+    /// Adds the illuminance at a point by the aperture, with each polynomial as its luminance distribution, to `sums`:
+    /// by cell of the direction in `basis`, then by node, as a sum over directions. \[sr\]
     pub fn add_seen(&self, view: &View, basis: &RingBasis, sums: &mut [f64]) {
         let count = self.count();
         through::spread(view, DIRECTIONS, |towards, counts, place| {
@@ -60,8 +60,8 @@ impl Nodes {
         });
     }
 
-    /// Returns weights of a grid's points on the same aperture in the luminance of each node, by least squares between
-    /// the light of the grid and the polynomials.
+    /// Returns the weights of the points of a grid on the same aperture in the luminance of each node: least-squares
+    /// fit of the polynomials to the luminance that the grid interpolates.
     pub fn of_grid(&self, grid: &Grid) -> Vec<Vec<f64>> {
         let value = |side: usize, k: usize| move |at: f64| values(&self.sides[side], at).nth(k).unwrap_or_default();
         let of = |(node, part): (usize, f64)| {
@@ -71,13 +71,13 @@ impl Nodes {
         self.parts().into_iter().enumerate().map(of).collect()
     }
 
-    /// Returns the share of the aperture that each node represents.
+    /// Returns the share of the aperture's area that each node represents.
     pub fn parts(&self) -> Vec<f64> {
         self.sides[1].iter().flat_map(|(_, b)| self.sides[0].iter().map(move |(_, a)| a * b)).collect()
     }
 
-    /// Returns the luminances of the nodes for light of luminance 1 on convex pieces of the aperture, in the room
-    /// frame, and darkness beside them, by least squares.
+    /// Returns the values at the nodes that fit, by least squares, a luminance of 1 on convex pieces of the aperture
+    /// and 0 elsewhere. `pieces`: corners of the pieces in the room's frame \[m\].
     pub fn lit(&self, pieces: &[Vec<DVec3>]) -> Vec<f64> {
         let mut sums = vec![0.0; self.count()];
         // Exact for the polynomials' degrees together and one more.
@@ -98,7 +98,7 @@ impl Nodes {
                 }
             }
         }
-        // Polynomials between Gauss's points are at right angles to each other.
+        // The Lagrange polynomials of the Gauss points are orthogonal.
         sums.iter().zip(self.parts()).map(|(sum, part)| sum / part).collect()
     }
 }

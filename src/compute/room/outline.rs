@@ -1,8 +1,9 @@
-//! Sharp patches of sun on the walls: each emits as the polygon that it is, to points and to the patches of the room.
+//! First reflection of sharp sun patches on the walls: each is a polygon that emits to points and to the patches of the
+//! room.
 //!
-//! A polygon that covers half a patch is not a patch of half the brightness: where the opening is small or the patches
-//! are long, that would move light by half a patch. The exchange of an outline and a patch is the mean of a closed
-//! form, that of the larger one of both seen from points of the smaller.
+//! A polygon that covers half a patch is not replaced by a patch of half the exitance: with a small aperture or long
+//! patches, light would be displaced by half a patch. The exchange between an outline and a patch is the mean of a
+//! closed form over points of the smaller one of both, that of the larger one seen from these points.
 
 use super::aperture::Aperture;
 use super::direct::Sensor;
@@ -14,19 +15,19 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// A convex piece of a wall that reflects a beam.
+/// Convex piece of a wall that reflects diffusely with a uniform exitance, for instance where a beam of sun lights it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
-    /// Index of the wall.
+    /// Index of the wall in the mesh.
     pub wall: usize,
-    /// Corners in the wall's own coordinates, in order. \[m\]
+    /// Corners of the piece in the coordinates of the wall, in order. \[m\]
     pub corners: Vec<DVec2>,
-    /// Luminous exitance of the outline, below 0 where another outline around it counts too much. \[lm/m²\]
+    /// Luminous exitance of the piece; negative if it corrects the exitance of another outline around it. \[lm/m²\]
     pub exitance: f64,
 }
 
 impl Outline {
-    /// Creates the outline of a whole aperture.
+    /// Creates the outline of a whole aperture with a uniform exitance. \[lm/m²\]
     pub fn of_aperture(mesh: &Mesh, aperture: &Aperture, exitance: f64) -> Self {
         let inward = -aperture.surface.room_from_facade(DVec3::Z);
         // One of the six sides looks into the room from the aperture's plane.
@@ -36,12 +37,13 @@ impl Outline {
         Self { wall, corners: corners.to_vec(), exitance }
     }
 
-    /// Returns the illuminance at a point from the outline. \[lx\]
+    /// Returns the illuminance at a point by the outline. \[lx\] `position` and `normal`: of the receiving plane,
+    /// room's frame.
     pub fn light_at(&self, mesh: &Mesh, position: DVec3, normal: DVec3) -> f64 {
         self.exitance * polygon_factor(&mesh.walls[self.wall], &self.corners, position, normal)
     }
 
-    /// Adds the illuminance from the outline at each of many sensors. \[lx\]
+    /// Adds the illuminance by the outline at each of many sensors to `sums`. \[lx\]
     pub fn add_light(&self, mesh: &Mesh, sensors: &[Sensor], sums: &mut [f64]) {
         let wall = &mesh.walls[self.wall];
         let corners: Vec<DVec3> = self.corners.iter().map(|p| wall.point(p.x, p.y)).collect();
@@ -51,13 +53,14 @@ impl Outline {
     }
 }
 
-/// Maximum number of sampling points along each side of a piece. Chosen: cost, fluxes are closed; held by the tests
-/// `halves_make_the_whole` (8e-3) and `whatever_an_outline_throws_arrives`.
+/// Maximum number of sampling points along each side of a piece. Chosen: cost; fluxes are scaled to be exact; held by
+/// the tests `halves_make_the_whole` (8e-3) and `whatever_an_outline_throws_arrives`.
 const MOST_POINTS: usize = 6;
 
-/// Returns the number of sampling points along each side of a piece of `size` at `distance` from the receiver.
+/// Returns the number of sampling points along each side of a piece of `size` \[m\] at `distance` \[m\] from the
+/// receiver.
 fn points(size: f64, distance: f64) -> usize {
-    // The slack keeps decisions the same for a room in another unit.
+    // The slack keeps rounding from deciding, so that results do not depend on the unit of length.
     match size / distance.max(1e-12 * size) - 1e-9 {
         r if r < 0.14 => 1,
         r if r < 0.5 => 2,
@@ -67,8 +70,8 @@ fn points(size: f64, distance: f64) -> usize {
     }
 }
 
-/// Computes the mean illuminance of every patch from all outlines, each scaled to the flux that it reflects; and the
-/// share of the flux that the scaling added or removed.
+/// Computes the mean illuminance of every patch by all outlines \[lx\], the contribution of each scaled to its
+/// reflected flux, and the share of the flux that the scaling adds or removes.
 pub fn patch_illuminances(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) {
     let rules: Vec<_> = (0..=MOST_POINTS).map(gauss_legendre).collect();
     let mut sums = vec![0.0; mesh.patches.len()];
@@ -96,7 +99,7 @@ pub fn patch_illuminances(mesh: &Mesh, outlines: &[Outline]) -> (Vec<f64>, f64) 
     (sums, if fluxes > 0.0 { gaps / fluxes } else { 0.0 })
 }
 
-/// An outline with all that its exchange with patches needs.
+/// Outline with the quantities for its exchange with patches.
 struct Emitter {
     corners: Vec<DVec3>,
     normal: DVec3,
@@ -104,7 +107,7 @@ struct Emitter {
     limits: [DVec3; 2],
     size: f64,
     area: f64,
-    /// Points with their shares of the area, by number of points a side.
+    /// Points with their shares of the area, by number of points per side.
     samples: Vec<Vec<(DVec3, f64)>>,
 }
 
@@ -119,7 +122,7 @@ impl Emitter {
         Self { corners, normal: wall.normal, limits: [low, high], size: (high - low).length(), area, samples }
     }
 
-    /// Returns the mean of the configuration factor over a patch on another wall.
+    /// Returns the mean of the outline's configuration factor over a patch on another wall.
     fn on(&self, wall: &Wall, patch: &Patch, rules: &[Vec<(f64, f64)>]) -> f64 {
         let corners = patch.corners(wall);
         let [low, high] = [corners[0], corners[2]];
@@ -146,7 +149,8 @@ impl Emitter {
     }
 }
 
-/// Returns the configuration factor of a polygon that has no part behind the point: both lie on walls of one box.
+/// Returns the configuration factor at a point of a polygon that lies wholly in front of it, because both lie on walls
+/// of one box.
 fn factor(corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
     let Some(&last) = corners.last() else { return 0.0 };
     let mut sum = DVec3::ZERO;
@@ -160,7 +164,7 @@ fn factor(corners: &[DVec3], position: DVec3, normal: DVec3) -> f64 {
 }
 
 /// Returns points of a convex polygon with their shares of its area: its centroid, or a product rule on every triangle
-/// of a fan.
+/// of a fan from its first corner.
 fn samples(wall: &Wall, corners: &[DVec2], rule: &[(f64, f64)]) -> Vec<(DVec3, f64)> {
     let whole = area(corners);
     let Some((&apex, rest)) = corners.split_first() else { return Vec::new() };
@@ -173,7 +177,7 @@ fn samples(wall: &Wall, corners: &[DVec2], rule: &[(f64, f64)]) -> Vec<(DVec3, f
     for (p, q, share) in triangles {
         for &(s, ws) in rule {
             for &(t, wt) in rule {
-                // The square folded to a triangle: its width grows with the way from the apex.
+                // The unit square is mapped to a triangle whose width grows with the distance from the apex.
                 let point = apex + s * ((p - apex) + t * (q - p));
                 samples.push((wall.point(point.x, point.y), share * 2.0 * s * ws * wt));
             }

@@ -1,4 +1,4 @@
-//! Weights of the light that the room's surfaces receive from an aperture, by the cells of that light.
+//! Weights of the luminances of an aperture, by emergent cell, in the illuminance of the room's patches.
 
 use super::aperture::Aperture;
 use super::direct::{Reception, Sensor};
@@ -14,27 +14,29 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Weights W with E_patch = Σ W_cell · L_cell, mean over each patch: geometry only, shared by all skies. \[sr\]
+/// Weights W of the luminances of an aperture by emergent cell in the mean illuminance of each fine patch, E_patch = Σ
+/// W_cell · L_cell. \[sr\] They depend on geometry only and are shared by all skies.
 pub struct PatchWeights {
-    /// Basis of the cells.
+    /// Basis of the emergent cells.
     pub basis: Arc<RingBasis>,
-    /// Weights of every patch by cell; empty for patches that do not see the aperture's room side.
+    /// Weights by cell for every patch; empty for patches that do not see the aperture's room side.
     rows: Vec<Vec<f64>>,
-    /// Flux that the room receives from each cell of luminance 1, over the flux that leaves through it. The flux is
-    /// closed by it; its deviation from 1 shows how well the patches' points sample the light.
+    /// Flux that the room's patches receive from each cell, relative to the flux that leaves the aperture into the
+    /// cell. Illuminances are divided by it so that the flux is exact; its deviation from 1 shows the error of the
+    /// points on the patches.
     closure: Vec<f64>,
     /// Σ over the patches of area · weight, by cell. \[m²sr\]
     received: Vec<f64>,
 }
 
-/// Returns the number of Gauss points along each side of a patch: one where the patch is small against its distance
-/// from the opening, up to three beside it.
+/// Returns the number of Gauss points along each side of a patch: one if the patch is small compared with its distance
+/// from the aperture, up to three beside the aperture.
 pub(super) fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> usize {
     let [low, _, high, _] = patch.corners(wall);
     let centre = 0.5 * (low + high);
     let corners = aperture.corners();
     let nearest = centre.clamp(corners[0].min(corners[2]), corners[0].max(corners[2]));
-    // The slack keeps decisions the same for a room in another unit.
+    // The slack keeps rounding from deciding, so that results do not depend on the unit of length.
     let ratio = (high - low).length() / centre.distance(nearest) - 1e-9;
     match ratio {
         r if r < 0.35 => 1,
@@ -43,7 +45,8 @@ pub(super) fn points_a_side(patch: &Patch, wall: &Wall, aperture: &Aperture) -> 
     }
 }
 
-/// Returns points of a patch with their shares of its area.
+/// Returns Gauss points of a patch in the room's frame \[m\] with their shares of its area. `order`: number of points
+/// per side.
 pub(super) fn samples<'a>(
     patch: &'a Patch,
     wall: &'a Wall,
@@ -57,13 +60,14 @@ pub(super) fn samples<'a>(
     })
 }
 
-/// Returns the Gauss rules of 0 to `most` points.
+/// Returns the Gauss rules with 0 to `most` points.
 pub(super) fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
     (0..=most).map(gauss_legendre).collect()
 }
 
 impl PatchWeights {
-    /// Computes the weights of all patches that see the aperture's room side.
+    /// Computes the weights for an aperture and the emergent cells of a basis, for all patches that see the aperture's
+    /// room side.
     pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>) -> Self {
         let rules = rules(3);
         let rows: Vec<Vec<f64>> = mesh
@@ -90,7 +94,8 @@ impl PatchWeights {
         Self::closed(mesh, aperture.area(), basis, rows)
     }
 
-    /// Creates the weights with their closure from rows; `area`: area that the light leaves. \[m²\]
+    /// Creates the weights from rows by patch and computes the ratio of received and emitted flux; `area`: area of the
+    /// aperture that emits. \[m²\]
     fn closed(mesh: &Mesh, area: f64, basis: Arc<RingBasis>, rows: Vec<Vec<f64>>) -> Self {
         let mut received = vec![0.0; basis.len()];
         for (row, patch) in rows.iter().zip(&mesh.patches) {
@@ -102,7 +107,8 @@ impl PatchWeights {
         Self { basis, rows, closure, received }
     }
 
-    /// Returns weights of light that is 1 at one node of an aperture and 0 at the others, one set for each node.
+    /// Computes weights for luminances that vary over the aperture, one set for each node: for a luminance that is 1 at
+    /// this node, 0 at the others, and interpolated by the polynomials of `nodes` between them.
     pub fn by_node(mesh: &Mesh, aperture: &Aperture, basis: &Arc<RingBasis>, nodes: &Nodes) -> Vec<Self> {
         let (rules, count) = (rules(3), nodes.count());
         let of = |patch: &Patch| {
@@ -135,8 +141,8 @@ impl PatchWeights {
         nodes.parts().into_iter().enumerate().map(of_node).collect()
     }
 
-    /// Computes the mean illuminance of every patch, scaled so that the room receives exactly the flux that leaves the
-    /// aperture; and the relative change by that scaling.
+    /// Computes the mean illuminance of every patch from the luminance of every cell \[cd/m²\], scaled so that the room
+    /// receives exactly the flux that leaves the aperture \[lx\], and the relative change by that scaling.
     pub fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
         let received = dot(&self.received, luminance);
         if received <= 0.0 {
@@ -154,28 +160,30 @@ impl PatchWeights {
         (first.collect(), (scale - 1.0).abs())
     }
 
-    /// Returns weights of the cells' luminance for each list of weights of the patches' illuminance, the flux of every
-    /// cell closed separately.
+    /// Returns, for each list of weights of the patches' illuminances, the weights of the cells' luminances that give
+    /// the same sum; the flux of every cell is scaled to be exact separately.
     pub fn gathered(&self, weights: &[&[f64]]) -> Vec<Vec<f64>> {
         let seeing: Vec<usize> = (0..self.rows.len()).filter(|&k| !self.rows[k].is_empty()).collect();
         let rows: Vec<f64> = seeing.iter().flat_map(|&k| &self.rows[k]).copied().collect();
         let by_patch = MatRef::from_column_major_slice(&rows, self.basis.len(), seeing.len());
         let weights = Mat::from_fn(seeing.len(), weights.len(), |row, list| weights[list][seeing[row]]);
         let mut sums = Mat::zeros(self.basis.len(), weights.ncols());
-        // One thread: the result must not depend on their number.
+        // One thread, because the result must not depend on the number of threads.
         matmul(sums.as_mut(), Accum::Replace, by_patch, weights.as_ref(), 1.0, Par::Seq);
         let closed = |(sum, c): (&f64, &f64)| if *c > 0.0 { sum / c } else { 0.0 };
         sums.col_iter().map(|sums| sums.iter().zip(&self.closure).map(closed).collect()).collect()
     }
 
-    /// Returns the mean relative gap of flux that the closing removes, weighted by flux.
+    /// Returns the mean relative difference between received and emitted flux over the cells before the scaling,
+    /// weighted by flux.
     pub fn gap(&self) -> f64 {
         let received: f64 = self.received.iter().sum();
         let gaps = self.received.iter().zip(&self.closure).filter(|(_, c)| **c > 0.0);
         if received > 0.0 { gaps.map(|(r, c)| r * (1.0 / c - 1.0).abs()).sum::<f64>() / received } else { 0.0 }
     }
 
-    /// Returns [`Self::falling_back`] as weights: for every cell the weights of the patches' exitance.
+    /// Returns, for every cell, the weights of the patches' exitances in the illuminance of the aperture's room side
+    /// from this cell, the factors of [`Self::falling_back`].
     pub fn falling(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
         let scale = 1.0 / (PI * aperture.area());
         let share = |cell: usize, row: &Vec<f64>, patch: &Patch| {
@@ -188,8 +196,9 @@ impl PatchWeights {
             .collect()
     }
 
-    /// Computes the mean illuminance of the aperture's room side from the patches, by the cells through which their
-    /// light comes. \[lx\] A cell is identified by the direction in which its light travels.
+    /// Computes the mean illuminance of the aperture's room side by the patches, by cell of the direction that the
+    /// light comes from. \[lx\] `exitance`: of every patch \[lm/m²\]. A cell contains the directions, z > 0 in the
+    /// façade frame, in which the light travels.
     pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
         let mut incident = vec![0.0; self.basis.len()];
         for ((row, patch), b) in self.rows.iter().zip(&mesh.patches).zip(exitance) {
@@ -203,10 +212,11 @@ impl PatchWeights {
     }
 }
 
-/// Maximum number of cells in weights of patches; more are merged, because the patches do not resolve them. Chosen:
-/// cost; above the 420 cells that they are merged into.
+/// Maximum number of emergent cells in the weights for patches; more are merged, because the patches do not resolve
+/// them. Chosen: cost; above the 420 cells that they are merged into.
 pub const MOST_CELLS: usize = 600;
 
+/// Creates the basis of [`merged_cells`].
 fn merged_basis() -> RingBasis {
     let limits = [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0_f64];
     let sectors = [4, 8, 12, 12, 20, 28, 36, 44, 52, 60, 68, 76];
@@ -223,22 +233,22 @@ fn merged_basis() -> RingBasis {
     RingBasis::new("merged", rings, AzimuthMap::FACADE).expect("the sines above rise from 0 to 1")
 }
 
-/// Returns about 400 cells of equal projected solid angle, with finer ones around the normal, towards the far end of a
-/// deep room; their borders hold the façade's horizon.
+/// Returns the 420 emergent cells into which finer bases are merged: of about equal projected solid angle, with finer
+/// ones around the normal, for the far end of a deep room; the façade's horizon runs along their borders.
 pub fn merged_cells() -> &'static Arc<RingBasis> {
     static CELLS: OnceLock<Arc<RingBasis>> = OnceLock::new();
     CELLS.get_or_init(|| Arc::new(merged_basis()))
 }
 
-/// Number of bases whose resampling to the merged cells is kept; the oldest is removed first. Chosen: cost only, no
+/// Number of bases whose resampling to the merged cells is cached; the oldest is removed first. Chosen: cost only, no
 /// effect on results.
 const MERGINGS: usize = 4;
 
-/// Returns the resampling from the cells of a basis to the merged ones, kept between calls, because every sun needs the
-/// same few bases.
+/// Returns the resampling from the cells of a basis to those of [`merged_cells`]; it is cached, because the same few
+/// bases are needed for every position of the sun.
 pub fn merging(basis: &Arc<RingBasis>) -> Arc<Resampling> {
     static KEPT: Mutex<Vec<(Arc<RingBasis>, Arc<Resampling>)>> = Mutex::new(Vec::new());
-    // What is kept is whole even if another thread has failed while it held the lock.
+    // The cache is valid even if another thread panicked while it held the lock.
     let mut kept = KEPT.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, found)) = kept.iter().find(|(known, _)| Arc::ptr_eq(known, basis)) {
         return Arc::clone(found);

@@ -1,14 +1,15 @@
-//! Interreflection between diffuse surfaces: closed-form exchange areas, one small Cholesky factorisation, any number
-//! of first illuminances.
+//! Interreflection between the diffuse surfaces of a box room: closed-form exchange areas, one small Cholesky
+//! factorisation, any number of distributions of the direct illuminance.
 //!
-//! With B = ρE the balance E = E₀ + Fρ E is solved for the light that arrives after reflection alone, R = E₁ + Fρ R
-//! with E₁ = Fρ E₀. E₀ changes fast and lives on fine patches, from which E₁ is exact; R is smooth and is balanced
-//! between patches of twice the size (Galerkin), then handed back to the fine ones by one more exchange (Sloan's
-//! iterate). The symmetric positive definite system (A/ρ − AF) b = A E₁, b = ρR, is factored, not iterated: at ρ = 0.99
-//! iterations need thousands of sweeps.
+//! With the exitance B = ρE, the equation E = E₀ + Fρ E for the illuminance E from the direct illuminance E₀ is solved
+//! for the interreflected illuminance alone, R = E₁ + Fρ R with E₁ = Fρ E₀. E₀ changes fast and is given on fine
+//! patches, from which E₁ is exact; R is smooth and is solved between patches of twice the size (Galerkin), then
+//! transferred to the fine ones by one more exchange (Sloan's iterate). The symmetric positive definite system (A/ρ −
+//! AF) b = A E₁, b = ρR, is factored, not iterated: at ρ = 0.99 iterations need thousands of sweeps.
 //!
-//! A second balance with all patches twice as large comes from sums of the same exchange areas. The error is of second
-//! order in the size, so a third of the difference is added, and the difference shows what remains.
+//! A second solution with all patches twice as large uses sums of the same exchange areas. The error is of second order
+//! in the size of the patches, so that a third of the difference is added, and the difference shows the remaining
+//! error.
 
 use super::exchange::Exchange;
 use super::mesh::{Mesh, Nested, Patch};
@@ -16,12 +17,12 @@ use crate::compute::dot::dot;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
 
-/// Maximum mean reflectance of all surfaces together, weighted by area. Beyond, the answer depends mainly on what is
-/// not known about them, and 1 has none. Chosen: limit of input; the sum of all reflections, 1 / (1 − ρ), is 1000
-/// there.
+/// Maximum mean reflectance of all surfaces together, weighted by area. Above it the result depends mainly on small
+/// errors of the reflectances; with 1 there is no solution. Chosen: limit of input; the sum of all reflections, 1 / (1
+/// − ρ), is 1000 there.
 pub const MOST_REFLECTANCE: f64 = 0.999;
 
-/// A meshed room, prepared for any first illuminance.
+/// Interreflection in a meshed room, prepared for any direct illuminance of its patches.
 pub struct Radiosity {
     /// Patches of the room in three densities.
     pub nested: Nested,
@@ -29,42 +30,43 @@ pub struct Radiosity {
     coarser: MeshBalance,
 }
 
-/// Balance of light on one mesh, with light from and to the next finer one.
+/// Interreflection equations on one mesh, with exchange areas to the next finer one.
 struct MeshBalance {
     exchange: Exchange,
-    /// Area of every receiving patch. \[m²\]
+    /// Area of every patch of the coarser, receiving mesh. \[m²\]
     area: Vec<f64>,
     reflectance: Vec<f64>,
-    /// Index of the receiving patch that holds each emitting patch.
+    /// Index of the receiving patch that contains each emitting patch of the finer mesh.
     holder: Vec<usize>,
     /// Indices of the receiving patches with ρ > 0.
     active: Vec<usize>,
     factor: Option<Llt<f64>>,
 }
 
-/// Exitance of all patches, from two densities. \[lm/m²\]
+/// Luminous exitance of the room's patches by all reflections, computed with two densities of the mesh. \[lm/m²\]
 pub struct Exitance {
     /// Exitance of the fine patches. \[lm/m²\]
     pub fine: Vec<f64>,
-    /// Exitance of the coarse patches, computed without the fine ones except for the first illuminance. \[lm/m²\]
+    /// Exitance of the coarse patches, computed on the coarse and coarser meshes alone, except for the direct
+    /// illuminance. \[lm/m²\]
     pub coarse: Vec<f64>,
 }
 
-/// Error of a room that absorbs so little light that the balance has no meaningful solution.
+/// Error of a room that absorbs so little light that the interreflection has no meaningful solution.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the surfaces reflect {mean} of all light as a mean over their area (allowed: up to {MOST_REFLECTANCE}): with next to \
      nothing absorbed the illuminance grows without limit; lower a reflectance of the room or of an aperture's room side"
 )]
 pub struct NothingAbsorbs {
-    /// Mean reflectance, weighted by area.
+    /// Mean reflectance of the room's surfaces, weighted by area.
     pub mean: f64,
 }
 
-/// Returns the mean of the given reflectances of the patches, weighted by area.
+/// Returns the mean reflectance of the patches of a mesh, weighted by area. `reflectance`: returns that of a patch.
 ///
 /// # Errors
-/// Returns an error if too little is absorbed for a meaningful solution of the balance.
+/// Returns an error if the mean is above [`MOST_REFLECTANCE`].
 pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> Result<f64, NothingAbsorbs> {
     let total: f64 = mesh.patches.iter().map(|patch| patch.area).sum();
     let absorbed: f64 = mesh.patches.iter().map(|patch| patch.area * (1.0 - reflectance(patch))).sum();
@@ -73,7 +75,11 @@ pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> R
 }
 
 impl Radiosity {
-    /// Computes the exchange areas and factors the balances. Memory: a dense matrix of coarse by fine patches.
+    /// Computes the exchange areas of a meshed room and factors the interreflection equations. Memory: a dense matrix
+    /// of coarse by fine patches.
+    ///
+    /// # Errors
+    /// Returns an error if the surfaces absorb too little light ([`MOST_REFLECTANCE`]).
     pub fn new(nested: Nested) -> Result<Self, NothingAbsorbs> {
         let mean = enough_is_absorbed(&nested.fine, |patch| patch.reflectance)?;
         let exchange = Exchange::new(&nested.coarse, &nested.fine);
@@ -89,7 +95,8 @@ impl Radiosity {
         Ok(Self { nested, level, coarser })
     }
 
-    /// Computes the exitance of every patch from the first illuminance E₀ of the fine ones.
+    /// Computes the exitance of every patch by all reflections, from the direct illuminance `first` of the fine patches
+    /// \[lx\].
     pub fn exitance(&self, first: &[f64]) -> Exitance {
         let reflected = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
             let after = level.after_reflection(mesh, first);
@@ -102,8 +109,9 @@ impl Radiosity {
         }
     }
 
-    /// Computes the illuminance of every fine patch by first light and all its reflections, and the difference of its
-    /// mean over the coarse patch from the solution with the coarse patches alone. \[lx\]
+    /// Computes the illuminance of every fine patch by direct light and all its reflections, and the difference of its
+    /// mean over the coarse patch from the solution with the coarse patches alone. \[lx\] `first`: direct illuminance
+    /// of the fine patches \[lx\].
     pub fn illuminance(&self, first: &[f64]) -> Vec<(f64, f64)> {
         let received = |level: &MeshBalance, mesh: &Mesh, first: &[f64]| -> Vec<f64> {
             first.iter().zip(level.after_reflection(mesh, first)).map(|(e, r)| e + r).collect()
@@ -114,36 +122,38 @@ impl Radiosity {
         fine.into_iter().zip(&self.level.holder).map(|(e, &holder)| (e, means[holder] - coarse[holder])).collect()
     }
 
-    /// Returns weights a of the first illuminance with Σ gather·exitance = Σ a·first, for sums over the exitance of the
-    /// fine patches (weights `gather`, one list per sum). One solution serves every light.
+    /// Returns weights a of the fine patches' direct illuminance with Σ gather·exitance = Σ a·first, for each weighted
+    /// sum over the exitances of the fine patches (weights `gather`, one list per sum). One solution serves every
+    /// distribution of direct light.
     pub fn adjoint_fine(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         self.level.adjoint(&self.nested.fine, gather)
     }
 
-    /// Returns weights of the first illuminance of the fine patches, like [`Self::adjoint_fine`], for sums over the
-    /// exitance of the coarse patches, computed without the fine ones.
+    /// Returns weights of the fine patches' direct illuminance, like [`Self::adjoint_fine`], for weighted sums over the
+    /// exitances of the coarse patches, computed on the coarse and coarser meshes.
     pub fn adjoint_coarse(&self, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         let coarse = self.coarser.adjoint(&self.nested.coarse, gather);
         coarse.iter().map(|weights| self.level.spread(&self.nested.fine, weights)).collect()
     }
 
-    /// Returns the part of [`Self::adjoint_fine`] that is due to light reflected only once.
+    /// Returns the part of the weights of [`Self::adjoint_fine`] by light that was reflected only once.
     pub fn once_fine(&self, gather: &[f64]) -> Vec<f64> {
         once(&self.nested.fine, gather)
     }
 
-    /// Returns the part of [`Self::adjoint_coarse`] that is due to light reflected only once.
+    /// Returns the part of the weights of [`Self::adjoint_coarse`] by light that was reflected only once.
     pub fn once_coarse(&self, gather: &[f64]) -> Vec<f64> {
         self.level.spread(&self.nested.fine, &once(&self.nested.coarse, gather))
     }
 
-    /// Returns the values of the fine patches replaced by their means over the coarse ones.
+    /// Returns values on the fine patches, each replaced by the mean over the coarse patch that contains it.
     pub fn blurred(&self, values: &[f64]) -> Vec<f64> {
         let means = self.level.means(&self.nested.fine, values);
         self.level.holder.iter().map(|&holder| means[holder]).collect()
     }
 
-    /// Computes the mean illuminance of every fine patch from an aperture of uniform exitance 1, without reflection.
+    /// Computes the mean illuminance of every fine patch by the aperture with index `aperture`, with a uniform
+    /// Lambertian exitance of 1 lm/m², without reflection. \[lx\]
     pub fn illuminance_from_aperture(&self, aperture: usize) -> Vec<f64> {
         let mut first = vec![0.0; self.nested.fine.patches.len()];
         for (i, emitter) in self.nested.coarse.patches.iter().enumerate() {
@@ -165,7 +175,8 @@ fn once(mesh: &Mesh, gather: &[f64]) -> Vec<f64> {
 }
 
 impl MeshBalance {
-    /// Creates the balance; `None` when the system is singular.
+    /// Creates the equations between the patches of `receivers`; `None` if they are singular. `holder`: index of the
+    /// receiving patch that contains each emitting patch.
     fn new(exchange: Exchange, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
         let area: Vec<f64> = receivers.patches.iter().map(|patch| patch.area).collect();
         let reflectance: Vec<f64> = receivers.patches.iter().map(|patch| patch.reflectance).collect();
@@ -174,10 +185,10 @@ impl MeshBalance {
             None
         } else {
             let square = exchange.gathered(None, area.len(), holder, area.len());
-            // One thread: the result must not depend on their number.
+            // One thread, because the result must not depend on the number of threads.
             faer::set_global_parallelism(faer::Par::Seq);
             let matrix = Mat::from_fn(active.len(), active.len(), |r, c| {
-                // The lower half is what counts; its transpose differs by rounding.
+                // Only the lower half is used; its transpose differs by rounding.
                 let (i, j) = (active[r.max(c)], active[r.min(c)]);
                 let diagonal = if i == j { area[i] / reflectance[i] } else { 0.0 };
                 diagonal - square.row(i)[j]
@@ -187,7 +198,7 @@ impl MeshBalance {
         Some(Self { exchange, area, reflectance, holder: holder.to_vec(), active, factor })
     }
 
-    /// Returns means over the receiving patches of values on the emitting ones.
+    /// Returns the means over the receiving patches of values on the emitting ones.
     fn means(&self, emitters: &Mesh, values: &[f64]) -> Vec<f64> {
         let mut means = vec![0.0; self.area.len()];
         for ((patch, &holder), value) in emitters.patches.iter().zip(&self.holder).zip(values) {
@@ -197,33 +208,33 @@ impl MeshBalance {
         means
     }
 
-    /// Returns weights on the emitting patches: the transpose of [`Self::means`].
+    /// Returns weights of the emitting patches from weights of the receiving ones: the transpose of [`Self::means`].
     fn spread(&self, emitters: &Mesh, weights: &[f64]) -> Vec<f64> {
         emitters.patches.iter().zip(&self.holder).map(|(patch, &i)| patch.area / self.area[i] * weights[i]).collect()
     }
 
-    /// Returns weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R), for every list of `gather`:
-    /// [`Self::after_reflection`] read backwards.
+    /// Returns weights of E₀ with Σ weight·E₀ = Σ gather·ρ(E₀ + R), for every list of `gather`: the adjoint of
+    /// [`Self::after_reflection`].
     fn adjoint(&self, emitters: &Mesh, gather: &[&[f64]]) -> Vec<Vec<f64>> {
         // h = ρ gather weighs both E₀ and R. Without any active patch R is 0.
         let mut results: Vec<Vec<f64>> = gather.iter().map(|gather| once(emitters, gather)).collect();
         let Some(factor) = &self.factor else {
             return results;
         };
-        // One thread: the result must not depend on their number.
+        // One thread, because the result must not depend on the number of threads.
         faer::set_global_parallelism(faer::Par::Seq);
-        // The last step forwards gives every receiving patch the mean of the balance: what its fine patches weigh
-        // together goes to that mean, b/ρ, and is taken off the mean of what exchange alone brings. Black patches have
-        // no such step.
+        // The last forward step shifts the fine patches to the mean of the balance. Backwards, the summed weight of a
+        // receiving patch's fine patches therefore goes to that mean, b/ρ, and is subtracted from the mean of the
+        // exchange alone. Black patches have no such step.
         let held: Vec<Vec<f64>> = results.iter().map(|result| self.held(result)).collect();
         let before = Mat::from_fn(emitters.patches.len(), results.len(), |k, sum| {
             let i = self.holder[k];
             results[sum][k] / emitters.patches[k].area - held[sum][i] / self.area[i]
         });
-        // u = AF (h/a − held/A): weights of the exitance that was handed back to the fine patches.
+        // u = AF (h/a − held/A): weights of the exitance that the forward step distributes to the fine patches.
         let exitance = self.exchange.matrix() * before;
-        // b counts as exitance and, over ρ, as mean. (A/ρ − AF) is symmetric: the same factor solves backwards, and
-        // what comes out weighs A E₁. That b is held at 0 forwards only takes off rounding, and is left out here.
+        // b counts as exitance and, over ρ, as mean. (A/ρ − AF) is symmetric: the same factorisation solves backwards,
+        // and its solution weighs A E₁. The forward limit b ≥ 0 only removes rounding and is left out here.
         let solution = factor.solve(&Mat::from_fn(self.active.len(), results.len(), |r, sum| {
             let i = self.active[r];
             exitance[(i, sum)] + held[sum][i] / self.reflectance[i]
@@ -235,7 +246,7 @@ impl MeshBalance {
         // A E₁ = AF ρE₀ read backwards: by the transpose to the emitting patches, whose ρ follows below.
         let emitted = self.exchange.matrix().transpose() * once;
         for (sum, result) in results.iter_mut().enumerate() {
-            // The exitance of a receiving patch also held ρ times the mean of E₀ itself.
+            // The exitance of a receiving patch also contains ρ times the mean of E₀.
             let means: Vec<f64> =
                 self.reflectance.iter().enumerate().map(|(i, rho)| exitance[(i, sum)] * rho).collect();
             let by_means = self.spread(emitters, &means);
@@ -255,7 +266,7 @@ impl MeshBalance {
         held
     }
 
-    /// Computes R on the emitting patches from E₀ on them.
+    /// Computes the interreflected illuminance R of the emitting patches from their direct illuminance E₀.
     fn after_reflection(&self, emitters: &Mesh, first: &[f64]) -> Vec<f64> {
         let mut result = vec![0.0; first.len()];
         let Some(factor) = &self.factor else {
@@ -282,7 +293,7 @@ impl MeshBalance {
                 }
             }
         }
-        // The means stay those of the balance, which knows E₁ from the fine patches.
+        // The means remain those of the balance, which uses E₁ of the fine patches.
         let mut shift = vec![0.0; self.area.len()];
         for ((r, patch), &holder) in result.iter_mut().zip(&emitters.patches).zip(&self.holder) {
             shift[holder] += *r;

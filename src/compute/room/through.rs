@@ -1,8 +1,8 @@
-//! Near field of an aperture through which the outside is seen undistorted (eq 20 in eq 17): the sky's own luminance,
-//! integrated over the part of the world that the sensor sees through the opening.
+//! Illuminance of a sensor by the outside seen undeviated through an aperture (eq 20 in eq 17): the luminance of sky
+//! and ground, integrated over the solid angle in which the sensor sees them through the aperture.
 //!
-//! In azimuth and altitude about the zenith a plane opening, the horizon, a skyline and the sun's altitude are all
-//! simple limits of the altitude, for a façade as for a roof. The region is cut along them, and each piece is
+//! In azimuth and altitude about the zenith a plane aperture, the horizon, a uniform skyline and the sun's altitude are
+//! all simple limits of the altitude, for façades and roofs. The region is divided along them, and each piece is
 //! integrated adaptively with an error estimate.
 
 use super::aperture::View;
@@ -17,9 +17,10 @@ use crate::compute::sky::irradiance_through;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Computes the illuminance at a sensor from the outside seen through the opening, each direction weighted by τ(θ) of
-/// the system. \[lx\] Where τ does not depend on θ, parts of constant luminance have a closed form. Behind boxes the
-/// outside must be the one that is seen from the sensor.
+/// Computes the illuminance of a sensor by sky, ground and obstructions seen through an aperture, each direction
+/// weighted by the regular transmittance τ(θ) of its system. \[lx\] `view`: aperture as seen from the sensor; `facing`:
+/// outside in front of the aperture, with obstructions as seen from the sensor. If τ does not depend on θ, parts of
+/// constant luminance have a closed form.
 pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance, tolerance: Tolerance) -> Estimate {
     let to_room = |v: DVec3| facing.surface.room_from_facade(v);
     let uniform_tau = tau.constant();
@@ -72,9 +73,9 @@ pub fn illuminance(view: &View, facing: &Facing<'_>, tau: &AngularTransmittance,
     sum + region.integrate(integrand, tolerance)
 }
 
-/// Returns fixed directions that sample the sky through the opening: room directions above the skyline's altitude
-/// \[rad\] (0: the horizon) with weights that include the sensor's cosine. \[sr\] `parts`: minimum number of Gauss
-/// points along each side of every piece.
+/// Returns fixed directions in which a sensor sees the sky through an aperture, in the room's frame, with weights that
+/// include the sensor's cosine. \[sr\] `skyline`: altitude of a uniform skyline \[rad\], 0 for the horizon; `parts`:
+/// minimum number of Gauss points along each side of every piece of the visible region.
 pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec<(Dir<Room>, f64)> {
     let to_room = |v: DVec3| surface.room_from_facade(v);
     let normal = to_room(view.normal);
@@ -100,9 +101,10 @@ pub fn samples(view: &View, surface: Surface, skyline: f64, parts: usize) -> Vec
     list
 }
 
-/// Calls `visit` with directions of the façade frame through a band of the opening's y \[m\], and the solid angle that
-/// each represents times the sensor's cosine \[sr\]. They are Gauss points in the two profile angles, in which the
-/// opening's near field is smooth. `rules`: Gauss rules by number of points, from 0.
+/// Calls `visit` with directions of the façade frame from the sensor through a horizontal strip of the aperture, and
+/// the solid angle that each represents times the sensor's cosine \[sr\]. `y`: limits of the strip relative to the
+/// sensor \[m\]. The directions are Gauss points in the two profile angles, in which the integrand is smooth near the
+/// aperture, too. `rules`: Gauss rules by number of points, from 0.
 pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: impl FnMut(DVec3, f64)) {
     let angle = |x: f64| (x / view.distance).atan();
     let ([a0, a1], [b0, b1]) = (view.x.map(angle), y.map(angle));
@@ -124,8 +126,9 @@ pub fn nodes(view: &View, y: [f64; 2], rules: &[Vec<(f64, f64)>], mut visit: imp
     }
 }
 
-/// Calls `visit` with directions of the façade frame spread over an opening, the solid angle that each represents times
-/// the sensor's cosine \[sr\], and its place on the opening as shares of the sides. `count`: a power of two.
+/// Calls `visit` with directions of the façade frame from the sensor that are distributed over the aperture, the solid
+/// angle that each represents times the sensor's cosine \[sr\], and the point where it crosses the aperture, as shares
+/// of the sides. `count`: number of directions, a power of two.
 pub fn spread(view: &View, count: u32, mut visit: impl FnMut(DVec3, f64, [f64; 2])) {
     let range = |limits: [f64; 2]| limits.map(|x| (x / view.distance).atan());
     let ([a0, a1], [b0, b1]) = (range(view.x), range(view.y));
@@ -141,7 +144,8 @@ pub fn spread(view: &View, count: u32, mut visit: impl FnMut(DVec3, f64, [f64; 2
     }
 }
 
-/// Computes the approximate illuminance at a sensor through the open opening, by degrees of the polar angle. \[lx\]
+/// Computes the approximate illuminance of a sensor by the outside through an aperture without any glazing, by degrees
+/// of the angle of incidence θ. \[lx\]
 pub fn by_degrees(view: &View, facing: &Facing<'_>) -> [f64; 90] {
     let rules = vec![gauss_legendre(NODES); 3];
     let mut light = [0.0; 90];
@@ -156,21 +160,23 @@ pub fn by_degrees(view: &View, facing: &Facing<'_>) -> [f64; 90] {
     light
 }
 
-/// Number of nodes of [`by_degrees`] along a side of an opening, or of its part above or below the horizon. Chosen:
+/// Number of nodes of [`by_degrees`] along a side of an aperture, or of its part above or below the horizon. Chosen:
 /// cost; affects the uncertainty due to data only.
 const NODES: usize = 12;
 
-/// A convex plane polygon seen from the origin, in azimuth and altitude.
+/// Region in azimuth and altitude that a convex plane polygon covers as seen from the origin.
 struct Region<'a> {
     polygon: &'a [DVec3],
     surface: Surface,
     /// Azimuths at which the limits of the altitude have kinks. \[rad\]
     azimuths: Vec<f64>,
-    /// Altitudes at which the luminance has kinks or jumps, with the ends. \[rad\]
+    /// Altitudes at which the luminance is not smooth or discontinuous, with the ends. \[rad\]
     altitudes: Vec<f64>,
 }
 
 impl<'a> Region<'a> {
+    /// Creates the region with the azimuths and altitudes at which integration is divided. `polygon`: corners as
+    /// vectors from the sensor; `skyline`: altitude of a uniform skyline. \[rad\]
     fn new(polygon: &'a [DVec3], surface: Surface, sun: Option<DVec3>, skyline: f64) -> Self {
         let azimuth = |v: DVec3| v.y.atan2(v.x);
         let mut altitudes = vec![-0.5 * PI, 0.0, 0.5 * PI];
@@ -202,8 +208,9 @@ impl<'a> Region<'a> {
             altitudes.push(sun.z.clamp(-1.0, 1.0).asin());
             inner.push(near(azimuth(sun), middle));
         }
-        // A sensor close to a façade sees an edge's altitude drop from the zenith to the horizon within a small turn
-        // near the façade's own plane: tan h = z cos(turn)/d. Knots on both sides of that drop keep the pieces smooth.
+        // For a sensor close to a façade the altitude of an edge drops from the zenith to the horizon within a small
+        // range of azimuth near the façade's plane: tan h = z cos(turn)/d. Knots on both sides of that drop keep the
+        // pieces smooth.
         if surface == Surface::Facade {
             let outward = azimuth(DVec3::NEG_Y);
             for vertex in polygon {
@@ -215,7 +222,7 @@ impl<'a> Region<'a> {
                 }
             }
         }
-        // Where edges at constant height cross the skyline or the sun's altitude, limits change over.
+        // Azimuths at which edges of constant height cross the skyline or the sun's altitude: the limits change there.
         for i in 0..polygon.len() {
             let (p, q) = (polygon[i], polygon[(i + 1) % polygon.len()]);
             if (p.z < 0.0) != (q.z < 0.0) {
@@ -260,15 +267,16 @@ impl<'a> Region<'a> {
                 seen += 1;
             }
         }
-        // A roof that holds the zenith is cut once: from its border up to the zenith.
+        // An opening in a roof that contains the zenith has one limit: the region lies between its border and the
+        // zenith.
         if seen == 1 && self.surface == Surface::Roof {
             high = 0.5 * PI;
         }
         (seen > 0 && high > low).then_some((low, high))
     }
 
-    /// Calls `visit` with the Gauss points of every piece above an altitude: azimuth, altitude \[rad\] and weight.
-    /// \[rad²\]
+    /// Calls `visit` with the azimuth \[rad\], the altitude \[rad\] and the weight \[rad²\] of the Gauss points of
+    /// every piece above an altitude.
     fn nodes(&self, from: f64, parts: usize, mut visit: impl FnMut(f64, f64, f64)) {
         let rules: Vec<_> = (0..=parts + 7).map(gauss_legendre).collect();
         let rule = |width: f64| &rules[parts + ((width / 0.25) as usize).min(7)];
@@ -289,7 +297,8 @@ impl<'a> Region<'a> {
         }
     }
 
-    /// Integrates `integrand`, a function of sine and cosine of the azimuth and of the altitude, over the region.
+    /// Computes the integral over the region of `integrand`, a function of (sine, cosine) of the azimuth and of the
+    /// altitude \[rad\].
     fn integrate(&self, integrand: impl Fn((f64, f64), f64) -> f64, tolerance: Tolerance) -> Estimate {
         // Pieces lie on a strip: x runs through the azimuth intervals one after the other, y through the bands of
         // altitude; the band's own limits are clamped to the polygon's.
@@ -352,7 +361,7 @@ struct Meridian {
     width: f64,
 }
 
-/// Returns an azimuth shifted by whole turns to be nearest to the reference.
+/// Returns an azimuth shifted by full turns to be nearest to the reference. \[rad\]
 fn near(azimuth: f64, reference: f64) -> f64 {
     azimuth - 2.0 * PI * ((azimuth - reference) / (2.0 * PI)).round()
 }

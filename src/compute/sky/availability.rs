@@ -1,4 +1,4 @@
-//! Typical illuminances of skies from the sun's altitude alone, for use without measurements.
+//! Typical illuminances by sun and sky from the sun's altitude alone, for use without measurements.
 //!
 //! References: IES Recommended Practice for the Calculation of Daylight Availability (RP-21, 1984): direct normal
 //! E_xt·exp(−c·m) with optical air mass m = 1/sin γ and E_xt = 127.5 klx · (1 + 0.034 cos(2π(J − 2)/365)) on day J of
@@ -6,19 +6,20 @@
 
 use std::f64::consts::PI;
 
-/// The three sky covers of the recommended practice RP-21.
+/// Class of cloud cover of the IES recommended practice RP-21.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cover {
-    /// Cloud cover below 0.3.
+    /// Clear sky: cloud cover below 0.3.
     Clear,
-    /// Cloud cover from 0.3 to 0.8.
+    /// Partly cloudy sky: cloud cover from 0.3 to 0.8.
     Partly,
-    /// Cloud cover above 0.8; no beam.
+    /// Overcast sky: cloud cover above 0.8, no direct sun.
     Overcast,
 }
 
 impl Cover {
-    /// Returns the cover that a CIE type represents: 1–5 overcast, 6–10 partly cloudy, 11–15 clear, 16 overcast.
+    /// Returns the class of cloud cover that a sky type of ISO 15469 (CIE) represents: 1–5 and 16 overcast, 6–10 partly
+    /// cloudy, 11–15 clear.
     pub const fn of_cie_type(cie_type: u8) -> Self {
         match cie_type {
             6..=10 => Self::Partly,
@@ -27,7 +28,7 @@ impl Cover {
         }
     }
 
-    /// Returns the name of the cover in English.
+    /// Returns the English name of the class of cloud cover.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Clear => "clear",
@@ -40,9 +41,9 @@ impl Cover {
 /// Solar illuminance constant of IES RP-21 (1984). \[lx\]
 const EXTRATERRESTRIAL: f64 = 127_500.0;
 
-/// Returns the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane \[lx\] for the
-/// sun at `altitude` \[rad\] on a `day` of the year, 1 to 365; without a day for the mean distance of the sun. Both are
-/// zero with the sun below the horizon.
+/// Returns the typical direct normal and diffuse horizontal illuminance \[lx\] for the sun at `altitude` \[rad\] on a
+/// `day` of the year, 1 to 365; without a day for the mean distance of the sun. Both are 0 with the sun on or below the
+/// horizon.
 pub fn typical_illuminances(cover: Cover, altitude: f64, day: Option<u16>) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);

@@ -4,7 +4,8 @@
 use super::gradated::Gradated;
 use std::f64::consts::FRAC_PI_2;
 
-/// Gradation a, b and indicatrix c, d, e of the types 1 to 15, ISO 15469:2004 table 1.
+/// Parameters of the gradation a, b and of the scattering indicatrix c, d, e of the sky types 1 to 15. Source: ISO
+/// 15469:2004, table 1.
 const PARAMETERS: [[f64; 5]; 15] = [
     [4.0, -0.70, 0.0, -1.0, 0.0],
     [4.0, -0.70, 2.0, -1.5, 0.15],
@@ -23,14 +24,14 @@ const PARAMETERS: [[f64; 5]; 15] = [
     [-1.0, -0.15, 24.0, -2.8, 0.15],
 ];
 
-/// Returns the relative luminance φ(Z)·f(χ) of a type 1 … 15; `None` for other numbers.
-/// f(χ) = 1 + c·(e^{dχ} − e^{dπ/2}) + e·cos²χ
+/// Returns the relative luminance φ(Z)·f(χ) of a CIE sky type 1 … 15; `None` for other numbers. f(χ) = 1 + c·(e^{dχ} −
+/// e^{dπ/2}) + e·cos²χ
 pub(super) fn gradated(sky_type: u8) -> Option<Gradated> {
     let [a, b, c, d, e] = *PARAMETERS.get(usize::from(sky_type).checked_sub(1)?)?;
     Some(Gradated { a, b, base: 1.0 - c * (d * FRAC_PI_2).exp(), c, d, e })
 }
 
-/// Whether the luminance of a type 1 … 16 depends on the position of the sun.
+/// Whether the luminance of a CIE sky type 1 … 16 depends on the position of the sun; `false` for other numbers.
 pub fn needs_sun(sky_type: u8) -> bool {
     gradated(sky_type).is_some_and(|sky| sky.c != 0.0 || sky.e != 0.0)
 }

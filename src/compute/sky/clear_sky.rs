@@ -10,8 +10,8 @@ use super::perez::PerezState;
 /// Solar constant of Perez's model, by which its brightness is defined, as in Radiance's `gendaylit`. \[W/m²\]
 const SOLAR_CONSTANT: f64 = 1367.0;
 
-/// Returns the air mass along the sun's rays relative to that of the zenith at sea level. `altitude`: of the sun, from
-/// 0 \[rad\]; `elevation`: of the place \[m\].
+/// Returns the optical air mass in the direction of the sun, relative to that of the zenith at sea level. `altitude`:
+/// of the sun, 0 and above \[rad\]; `elevation`: of the site above sea level \[m\].
 fn air_mass(altitude: f64, elevation: f64) -> f64 {
     let zenith = 90.0 - altitude.to_degrees();
     let relative = 1.0 / (altitude.sin() + 0.50572 * (96.07995 - zenith).powf(-1.6364));
@@ -21,8 +21,8 @@ fn air_mass(altitude: f64, elevation: f64) -> f64 {
 }
 
 /// Computes direct normal and diffuse horizontal irradiance under a clear sky. \[W/m²\] `altitude`: of the sun \[rad\];
-/// `turbidity`: after Linke (1 is clean dry air, 3 usual, above 5 hazy); `elevation`: of the place \[m\]. Both
-/// irradiances are zero with the sun on or below the horizon.
+/// `turbidity`: after Linke (1 is clean dry air, 3 usual, above 5 hazy); `elevation`: of the site above sea level
+/// \[m\]. Both irradiances are 0 with the sun on or below the horizon.
 pub fn clear_sky_irradiances(altitude: f64, turbidity: f64, elevation: f64) -> (f64, f64) {
     if altitude <= 0.0 {
         return (0.0, 0.0);
@@ -39,8 +39,8 @@ pub fn clear_sky_irradiances(altitude: f64, turbidity: f64, elevation: f64) -> (
     (direct, global - direct * sine)
 }
 
-/// Computes the illuminance on a plane facing the sun and the diffuse illuminance on a horizontal plane under a clear
-/// sky \[lx\], with the arguments of [`clear_sky_irradiances`].
+/// Computes direct normal and diffuse horizontal illuminance under a clear sky. \[lx\] `altitude`: of the sun \[rad\];
+/// `turbidity`: after Linke; `elevation`: of the site above sea level \[m\].
 pub fn clear_sky_illuminances(altitude: f64, turbidity: f64, elevation: f64) -> (f64, f64) {
     let (direct, diffuse) = clear_sky_irradiances(altitude, turbidity, elevation);
     match PerezState::new(altitude, direct, diffuse, 1.0) {

@@ -1,4 +1,4 @@
-//! Relative luminance of the sky above the horizon, with all models behind one enum.
+//! Relative luminance of the sky above the horizon, for all sky models.
 
 use super::cie;
 use super::gradated::Gradated;
@@ -7,7 +7,7 @@ use super::scan::Scan;
 use crate::compute::direction::{Dir, World};
 use glam::DVec3;
 
-/// Model that a [`Distribution`] follows.
+/// Sky model of a [`Distribution`].
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Model {
     Uniform,
@@ -17,20 +17,20 @@ pub(super) enum Model {
     Scan(Box<Scan>),
 }
 
-/// Relative luminance of a sky, not yet scaled to an illuminance.
+/// Relative luminance distribution of a sky (uniform, CIE, Perez or measured), not yet scaled to an illuminance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
     pub(super) model: Model,
 }
 
 impl Distribution {
-    /// Creates a sky of the same luminance everywhere.
+    /// Creates a uniform sky: the same luminance in all directions.
     pub const fn uniform() -> Self {
         Self { model: Model::Uniform }
     }
 
-    /// Creates a CIE sky of type 1 … 15 (ISO 15469) with its sun, or of type 16, the traditional overcast sky (1 + 2
-    /// sin γ)/3, which does not depend on the sun. `None` for another number.
+    /// Creates a CIE general sky of type 1 … 15 (ISO 15469) for a direction of the sun, or of type 16, the traditional
+    /// overcast sky (1 + 2 sin γ)/3, which does not depend on the sun. `None` for another number.
     pub fn cie(sky_type: u8, sun: Dir<World>) -> Option<Self> {
         if sky_type == 16 {
             return Some(Self { model: Model::Overcast });
@@ -38,18 +38,18 @@ impl Distribution {
         cie::gradated(sky_type).map(|sky| Self { model: Model::Gradated(sky, sun.vector()) })
     }
 
-    /// Creates the Perez all-weather sky (1993) of a state, with its sun.
+    /// Creates the Perez all-weather sky (1993) of a state (clearness, brightness) for a direction of the sun.
     pub fn perez(state: &PerezState, sun: Dir<World>) -> Self {
         let [a, b, c, d, e] = state.coefficients;
         Self { model: Model::Gradated(Gradated { a, b, base: 1.0, c, d, e }, sun.vector()) }
     }
 
-    /// Creates a sky of 145 measured luminances, constant over the band cells of the Tregenza lattice.
+    /// Creates a sky of 145 measured luminances, each constant over its patch of Tregenza's division of the sky dome.
     pub fn scan(scan: Scan) -> Self {
         Self { model: Model::Scan(Box::new(scan)) }
     }
 
-    /// Returns the relative luminance of a direction above the horizon (z ≥ 0).
+    /// Returns the relative luminance of the sky in a direction above the horizon (unit vector, world frame, z ≥ 0).
     #[inline]
     pub(super) fn relative(&self, v: DVec3) -> f64 {
         match &self.model {

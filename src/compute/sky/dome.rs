@@ -1,22 +1,22 @@
-//! A grid of directions of the sky, with linear interpolation of luminance between them: an illuminance by the sky is a
-//! sum over the grid with weights that do not depend on the sky.
+//! Grid of directions of the sky with linear interpolation of the luminance between them. An illuminance by the sky is
+//! a sum over the grid with weights that do not depend on the sky's luminances.
 
 use super::outside::Outside;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Directions in rows of equal altitude, from the horizon to the zenith.
+/// Grid of directions of the sky in rows of equal altitude, from the horizon to the zenith, world frame.
 #[derive(Debug, Clone)]
 pub(super) struct Dome {
-    /// Angle between rows. \[rad\]
+    /// Difference of altitude between rows. \[rad\]
     step: f64,
-    /// Index of the first direction of every row, then the number of all directions.
+    /// Index of the first direction of every row; last the number of all directions.
     first: Vec<usize>,
     directions: Vec<DVec3>,
 }
 
 impl Dome {
-    /// Creates a grid with about `spacing` between directions. \[rad\]
+    /// Creates a grid whose neighbouring directions are about `spacing` apart. \[rad\]
     pub fn new(spacing: f64) -> Self {
         let rows = (FRAC_PI_2 / spacing).ceil();
         let step = FRAC_PI_2 / rows;
@@ -33,17 +33,18 @@ impl Dome {
         Self { step, first, directions }
     }
 
-    /// Returns the number of directions.
+    /// Returns the number of directions of the grid.
     pub const fn len(&self) -> usize {
         self.directions.len()
     }
 
-    /// Returns the luminance of the open sky in every direction of the grid. \[cd/m²\]
+    /// Returns the luminance of the sky, without obstructions, in every direction of the grid. \[cd/m²\]
     pub fn luminances(&self, outside: &Outside) -> Vec<f64> {
         self.directions.iter().map(|d| outside.sky_luminance(*d)).collect()
     }
 
-    /// Calls `add` with the grid directions around `towards`, above the horizon, and their interpolation weights.
+    /// Calls `add` with the indices of the grid directions around the direction `towards` (z ≥ 0) and their
+    /// interpolation weights.
     pub fn spread(&self, towards: DVec3, mut add: impl FnMut(usize, f64)) {
         let rows = self.first.len() - 2;
         let at = towards.z.clamp(0.0, 1.0).asin() / self.step;

@@ -1,5 +1,5 @@
-//! Light that faces and ground reflect to each other any number of times: on panels, as the solution of linear
-//! equations.
+//! Interreflection between the faces of obstructions and the ground: luminances of panels as the solution of linear
+//! equations, for any number of reflections.
 
 use super::open_ground::OpenGround;
 use super::scenery::{Scenery, Surface};
@@ -12,38 +12,39 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Number of surfaces above which each has panels of one node in the equations. Chosen: cost; the change by finer
-/// panels is part of the stated error. No test has as many.
+/// Number of reflecting surfaces above which each panel has one node only in the equations. Chosen: cost; the change by
+/// finer panels is part of the stated error. No test has as many.
 const MANY: usize = 100;
-/// Maximum number of panels of a face in the equations. Chosen: cost; the change by finer panels is part of the stated
-/// error, held by `tests/scenes/exchange.rs`.
+/// Maximum number of panels of a face of an obstruction in the equations. Chosen: cost; the change by finer panels is
+/// part of the stated error, held by `tests/scenes/exchange.rs`.
 const MOST_COARSE: usize = 4;
-/// Maximum length of a panel of the ground relative to the size of the next body, or its distance. Chosen: cost, twice
-/// `FINE_GROUND` of `faces`; the change by finer panels is part of the stated error.
+/// Maximum length of a panel of the ground, relative to the size or the distance of the nearest body, whichever is
+/// larger. Chosen: cost, twice `FINE_GROUND` of `faces`; the change by finer panels is part of the stated error.
 const COARSE_GROUND: f64 = 2.0;
-/// Relative accuracy of the solution. Chosen: 1/200 of the smallest stated error, `REST` of `faces`; held by
+/// Relative accuracy of the iterative solution. Chosen: 1/200 of the smallest stated error, `REST` of `faces`; held by
 /// `tests/scenes/courts.rs::in_a_white_well_on_a_wide_roof_everything_is_as_bright_as_its_lid`, where nothing is
 /// absorbed.
 const SOLVED: f64 = 1e-6;
-/// Number of sets of illuminances that are solved together. Chosen: cost; results change in their last digits at most.
+/// Number of right-hand sides (sets of illuminances) that are solved together. Chosen: cost; results change in their
+/// last digits at most.
 const TOGETHER: usize = 128;
 
-/// Projected solid angles of panel nodes, or of other luminances, as seen from a point: index in a list and weight.
-/// \[sr\]
+/// Weights of luminances in the illuminance at a point, as (index of the luminance in a list, projected solid angle
+/// \[sr\]); zeros are left out.
 pub type Counts = Vec<(u32, f32)>;
 
-/// Panels of all surfaces, with their nodes numbered throughout.
+/// Panels of all surfaces of the scenery, with their nodes numbered consecutively.
 pub(super) struct Panels {
-    /// Panels of every surface.
+    /// Panels of every surface, with luminances at their nodes.
     pub lights: Vec<FaceLight>,
-    /// Number of the first node of every surface.
+    /// Index of the first node of every surface.
     first: Vec<usize>,
-    /// Surface of every node, and its coordinates on that surface. \[m\]
+    /// Index of the surface of every node, and the node's coordinates on that surface. \[m\]
     pub places: Vec<(usize, [f64; 2])>,
 }
 
 impl Panels {
-    /// Numbers the nodes of the panels of every surface.
+    /// Creates the consecutive numbering of the nodes of all panels; `lights` holds the panels of every surface.
     pub fn new(lights: Vec<FaceLight>) -> Self {
         let (mut first, mut places) = (Vec::with_capacity(lights.len()), Vec::new());
         for (index, light) in lights.iter().enumerate() {
@@ -53,7 +54,8 @@ impl Panels {
         Self { lights, first, places }
     }
 
-    /// Creates a few dark panels for every reflecting surface.
+    /// Creates a few panels of luminance 0 for every reflecting surface; surfaces of given luminance have it
+    /// everywhere.
     pub fn coarse(scenery: &Scenery<'_>, ground: &OpenGround) -> Self {
         let many = scenery.surfaces.iter().filter(|surface| surface.reflects()).count() > MANY;
         let of = |(index, surface): (usize, &Surface)| match surface.stated {
@@ -64,12 +66,12 @@ impl Panels {
         Self::new(scenery.surfaces.iter().enumerate().map(of).collect())
     }
 
-    /// Calls `add` with the nodes around a point of a surface and their interpolation weights.
+    /// Calls `add` with the indices of the nodes around a point of a surface and their interpolation weights.
     pub fn weigh(&self, surface: usize, at: [f64; 2], mut add: impl FnMut(usize, f64)) {
         self.lights[surface].weigh(at, |node, share| add(self.first[surface] + node, share));
     }
 
-    /// Evaluates `of` at every node, in parallel; `None` where a body covers the node.
+    /// Evaluates `of` with the view from every node, in parallel; `None` where a body covers the node.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -92,8 +94,8 @@ impl Panels {
         self.places.par_iter().map(one).collect()
     }
 
-    /// Returns for every node the one whose luminance it takes: itself, or where a body covers it the nearest free one
-    /// of its panel. Nodes of a panel that is wholly covered stay dark.
+    /// Returns for every node the index of the node whose luminance it is given: itself, or if a body covers it, the
+    /// nearest uncovered one of its panel. Nodes of a wholly covered panel remain at 0.
     pub fn free(&self, is_free: impl Iterator<Item = bool>) -> Vec<usize> {
         let name = |(node, free): (usize, bool)| if free { (node + 1) as f64 } else { f64::NAN };
         let names: Vec<f64> = is_free.enumerate().map(name).collect();
@@ -102,8 +104,8 @@ impl Panels {
         named.iter().flat_map(FaceLight::values).enumerate().map(own).collect()
     }
 
-    /// Returns the panels with these luminances of all nodes; where one is `NaN`, because a body covers the node, that
-    /// of the nearest free node of its panel. \[cd/m²\]
+    /// Returns the panels of every surface with the luminances `values` of all nodes \[cd/m²\]; a `NaN`, for a node
+    /// that a body covers, is replaced by the luminance of the nearest uncovered node of its panel.
     pub fn with(&self, values: &[f64]) -> Vec<FaceLight> {
         let mut lights = self.lights.clone();
         for (light, from) in lights.iter_mut().zip(&self.first) {
@@ -114,17 +116,18 @@ impl Panels {
     }
 }
 
-/// System of linear equations of the light that the nodes of panels reflect to each other.
+/// System of linear equations for the interreflection between the nodes of panels.
 pub(super) struct Exchange {
     panels: Panels,
-    /// Node whose luminance each node takes: its own, or the nearest free one.
+    /// Index of the node whose luminance each node is given: itself, or the nearest uncovered one.
     source: Vec<usize>,
-    /// Other nodes as seen from each node; `None` where a body covers it.
+    /// Weights of the other nodes in the illuminance of each node \[sr\]; `None` where a body covers the node.
     seen: Vec<Option<Counts>>,
 }
 
 impl Exchange {
-    /// Creates the equations. `seen`: other nodes as seen from every node, `None` where a body covers it.
+    /// Creates the equations. `seen`: weights of the other nodes in the illuminance of every node \[sr\]; `None` where
+    /// a body covers the node.
     pub fn new(panels: Panels, mut seen: Vec<Option<Counts>>) -> Self {
         let source = panels.free(seen.iter().map(Option::is_some));
         for (other, _) in seen.iter_mut().flatten().flatten() {
@@ -133,14 +136,14 @@ impl Exchange {
         Self { panels, source, seen }
     }
 
-    /// Returns the panels.
+    /// Returns the panels of all surfaces.
     pub fn panels(&self) -> &Panels {
         &self.panels
     }
 
-    /// Solves x = ρ/π (e + K x) for the luminance of every node by the method of Gauss and Seidel, which converges
-    /// since no surface reflects more than it receives. `falling`: illuminance e of every node by sky, sun and stated
-    /// luminances. \[lx\]
+    /// Solves x = ρ/π (e + K x) for the luminance x of every node \[cd/m²\] by the Gauss–Seidel method, which converges
+    /// because no surface reflects more than it receives. `falling`: illuminance e of every node by sky, sun and
+    /// surfaces of given luminance \[lx\]; K: weights of the other nodes.
     pub fn solved(&self, scenery: &Scenery<'_>, falling: &[f64]) -> Vec<f64> {
         let albedo: Vec<f64> = scenery.surfaces.iter().map(|surface| surface.reflectance / PI).collect();
         let albedo = |node: usize| albedo[self.panels.places[node].0];
@@ -163,9 +166,9 @@ impl Exchange {
         self.source.iter().map(|node| light[*node]).collect()
     }
 
-    /// Solves x = ρ/π (e + K x) for many sets of illuminances e and returns the results of `of` for the luminances, set
-    /// by set. `falling`: rows of nodes, a column for each set \[lx\]. `of`: takes the number of the first of some sets
-    /// and their luminances, rows of nodes. \[cd/m²\]
+    /// Solves x = ρ/π (e + K x) for many sets of illuminances e of the nodes and returns the results of `of` for the
+    /// luminances x. `falling`: a row for each node, a column for each set \[lx\]. `of`: called with the index of the
+    /// first of some sets and their luminances, a row for each node \[cd/m²\].
     pub fn solved_together<T: Send>(
         &self,
         scenery: &Scenery<'_>,
@@ -185,7 +188,7 @@ impl Exchange {
                 system[(node, *other as usize)] -= albedo[node] * counts;
             }
         }
-        // One thread each: the result must not depend on their number.
+        // One thread each, because the result must not depend on the number of threads.
         faer::set_global_parallelism(faer::Par::Seq);
         let factors = system.partial_piv_lu();
         let some = |first: usize| {
@@ -198,7 +201,8 @@ impl Exchange {
     }
 }
 
-/// Returns the luminance of all surfaces without the sun's own light, on few panels.
+/// Computes the luminance of all surfaces on few panels with interreflection, without the part directly reflected from
+/// the sun.
 pub(super) fn coarse(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -225,17 +229,17 @@ pub(super) fn coarse(
 /// Sum of weights over a long list in which few weights differ from 0.
 pub struct SparseSum {
     weights: Vec<f64>,
-    /// Indices of the weights that are not 0, some perhaps twice.
+    /// Indices of the weights that are not 0; an index may occur twice.
     places: Vec<u32>,
 }
 
 impl SparseSum {
-    /// Creates an empty sum over a list of `count` entries.
+    /// Creates a sum over a list of `count` weights, all 0.
     pub fn new(count: usize) -> Self {
         Self { weights: vec![0.0; count], places: Vec::new() }
     }
 
-    /// Adds a weight at an index of the list.
+    /// Adds a weight to that at an index of the list.
     pub fn add(&mut self, place: usize, weight: f64) {
         if self.weights[place] == 0.0 {
             self.places.push(place as u32);
@@ -243,7 +247,7 @@ impl SparseSum {
         self.weights[place] += weight;
     }
 
-    /// Returns the weights that are not 0 and empties the sum.
+    /// Returns the weights that are not 0 with their indices, and resets all to 0.
     pub fn take(&mut self) -> Counts {
         let weights = &mut self.weights;
         let taken = self.places.drain(..).map(|place| (place, std::mem::take(&mut weights[place as usize]) as f32));

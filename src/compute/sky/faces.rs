@@ -1,10 +1,10 @@
-//! Light on obstructions and on the ground, of which [`Surroundings`] is made.
+//! Illuminance and luminance of the faces of obstructions and of the ground, from which [`Surroundings`] are created.
 //!
-//! Every place reflects ρE/π alike in all directions, with E from all that it sees: sky, skyline, sun, and the light of
-//! the others. The sun's own light is exact at every point, by a ray, with sharp shadows. The rest is smooth: it is
-//! first found on few panels for all surfaces at once, as the solution of a system of linear equations, which holds any
-//! number of reflections. Panels of the surfaces seen from the apertures then gather it; they are small where it is
-//! steep, and between them the equations are solved once more.
+//! Every point reflects diffusely with the luminance ρE/π; E is its illuminance by sky, skyline, sun and the other
+//! surfaces. The part directly reflected from the sun is exact at every point, by a ray, with sharp shadows. The other
+//! part is smooth: it is first computed on few panels of all surfaces together, as the solution of a system of linear
+//! equations, which includes any number of reflections. The panels of the surfaces seen from the apertures are then
+//! refined where the luminance changes steeply, and the equations are solved once more between them.
 
 use super::equations::{Exchange, Panels, SparseSum, coarse};
 use super::open_ground::OpenGround;
@@ -23,34 +23,34 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Fineness of the panels on which light on surfaces is computed.
+/// Fineness of the panels on which the smooth luminance of surfaces is computed.
 pub(super) struct Fineness {
-    /// Relative error of the light between nodes above which panels are halved.
+    /// Relative error of the interpolated luminance between nodes above which panels are halved.
     pub between: f64,
-    /// Maximum number of panels of all faces together, as far as each has its [`FEWEST`].
+    /// Maximum number of panels of all faces together; each face has at least [`FEWEST`].
     pub most: usize,
 }
 
 impl Fineness {
-    /// Returns the fineness for a single moment, by the relative error of its results.
+    /// Returns the fineness for a single date and time; `target`: required relative error of the results.
     fn of_moment(target: f64) -> Self {
         Self { between: BETWEEN * target, most: MOST_PANELS[usize::from(target >= LOOSE)] }
     }
 }
 
-/// Error of the light of surfaces between nodes, as a share of the required error. Chosen: a fifth of the error target,
-/// since apertures and room have errors, too; the misfit is part of the stated error, held by
+/// Error of the luminance of surfaces between nodes, as a share of the required error. Chosen: a fifth of the error
+/// target, since apertures and room have errors, too; the misfit is part of the stated error, held by
 /// `tests/scenes/exchange.rs`.
 const BETWEEN: f64 = 0.2;
-/// Maximum number of panels of all faces together, for a required error below [`LOOSE`] and from there on. Chosen:
-/// cost; the misfit of the panels is part of the stated error.
+/// Maximum number of panels of all faces together, for a required error below [`LOOSE`], and for others. Chosen: cost;
+/// the misfit of the panels is part of the stated error.
 const MOST_PANELS: [usize; 2] = [300, 60];
 /// Required error from which few panels are enough. Chosen: cost; above the default target of 0.01, below that of
-/// previews while something is dragged, 0.1.
+/// previews during dragging in the window, 0.1.
 const LOOSE: f64 = 0.05;
-/// Maximum number of panels of a face. Chosen: cost; the misfit of the panels is part of the stated error.
+/// Maximum number of panels of one face. Chosen: cost; the misfit of the panels is part of the stated error.
 const MOST: usize = 48;
-/// Minimum number of panels of a face.
+/// Minimum number of panels of one face.
 const FEWEST: usize = 1;
 /// Maximum length of a ground panel in view, relative to the size of the next body, or to its distance. Source: with
 /// panels as long as their distance polynomials of degree 4 gave 1e-4 of a room's light when the reference cases
@@ -60,27 +60,31 @@ const FINE_GROUND: f64 = 1.0;
 /// Minimum height of a viewpoint above the ground in the weights of ground panels. \[m\] Chosen: cost; results change
 /// within their stated error.
 const LOWEST_EYE: f64 = 0.5;
-/// Height below which a place lies in the plane of a face: lengths typed as decimals do not meet exactly. \[m\]
+/// Height above the plane of a face up to which a point counts as in it, because lengths typed as decimals do not meet
+/// exactly. \[m\]
 const IN_PLANE: f64 = 1e-6;
-/// Relative error of the light on a face in addition to that between its nodes. Source: what a place collects agrees
-/// with cubature to 2e-4 in the test `ground_below_a_skyline_gets_what_cubature_finds` of `vista`.
+/// Relative error of the luminance of a face in addition to that between its nodes. Source: the illuminance at a point
+/// agrees with cubature to 2e-4 in the test `ground_below_a_skyline_gets_what_cubature_finds` of `vista`.
 const REST: f64 = 2e-4;
-/// Error that remains with the fine panels, as a share of the change that they made. In the white well of
-/// `tests/scenes/courts.rs` the few panels are off by half and the fine ones by 1e-4; in its court the fine ones are
-/// still off by 4e-3.
+/// Relative error that remains with the fine panels, as a share of the change between the coarse and the fine panels.
+/// In the white well of `tests/scenes/courts.rs` the few panels are off by half and the fine ones by 1e-4; in its court
+/// the fine ones are still off by 4e-3.
 const LEFT_OVER: f64 = 0.03;
 
-/// Points that obstructions are seen from, and accuracy of the obstructions' light.
+/// Points from which obstructions are seen, and the required accuracy, for the computation of the obstructions'
+/// luminances.
 pub struct Viewing<'a> {
-    /// Viewpoints in the world's axes. \[m\]
+    /// Points from which obstructions are seen (corners of the apertures), in the world's axes relative to the room's
+    /// origin. \[m\]
     pub viewpoints: &'a [DVec3],
-    /// Required relative error of a result, a part of which is granted to the light of surfaces.
+    /// Required relative error of a result of the scene; a fifth of it is allowed for the luminances of surfaces.
     pub target: f64,
 }
 
-/// Computes the surroundings: boxes and ground with the light on them, everything in the world's axes. `outside`: the
-/// open sky and ground, with a flat skyline if there is one. `turn`: cosine and sine of the rotation of the room's x
-/// axis.
+/// Computes the surroundings for one date and time: boxes and ground with their luminances, in the world's axes.
+/// `outside`: unobstructed sky and ground, with a flat skyline if there is one; `setting`: geometry and reflectances of
+/// the obstructions; `turn`: cosine and sine of the angle from east to the room's x axis; `skyline`: skyline by
+/// bearing.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -103,13 +107,15 @@ pub fn surroundings(
     Ok(assembled(&scenery, &ground, lights, &wanted, direct_sun.map(|(direction, _)| direction)))
 }
 
-/// Returns the direction towards a sun that is not hidden, and its normal illuminance. \[lx\]
+/// Returns the direction towards the sun, world frame, and its normal illuminance \[lx\] by the part of the disc above
+/// horizon and skyline; `None` if nothing of it is visible.
 pub(super) fn direct_sun(outside: &Outside, skyline: Option<&Skyline>, sun: Option<&Sun>) -> Option<(DVec3, f64)> {
     let of = |sun: &Sun| (sun.direction.vector(), sun.direct_normal * share_above(outside, skyline, sun));
     sun.map(of).filter(|(_, normal)| *normal > 0.0)
 }
 
-/// Returns the surfaces that reflect and are seen: faces of boxes, and the ground.
+/// Returns the indices of the surfaces that reflect light and are seen from a viewpoint: faces of boxes, and the
+/// ground.
 pub(super) fn wanted(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> {
     let building = 6 * (scenery.bodies.len() - 1)..scenery.ground();
     let mut wanted = in_front(scenery, viewpoints, 1e-9);
@@ -117,16 +123,16 @@ pub(super) fn wanted(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> 
     wanted
 }
 
-/// Returns the surfaces that reflect and have a viewpoint in front of them, higher than `height` above their plane.
-/// \[m\]
+/// Returns the indices of the surfaces that reflect light and have a viewpoint in front of them, more than `height`
+/// above their plane. \[m\]
 fn in_front(scenery: &Scenery<'_>, viewpoints: &[DVec3], height: f64) -> Vec<usize> {
     let seen = |face: &Face| viewpoints.iter().any(|point| face.normal.dot(*point - face.origin) > height);
     let reflecting = scenery.surfaces.iter().enumerate().filter(|(_, surface)| surface.reflects());
     reflecting.filter(|(_, surface)| seen(&surface.face)).map(|(index, _)| index).collect()
 }
 
-/// Returns the surfaces that reflect and lie in the plane of an aperture, as the façade around it: no aperture sees
-/// them, but obstructions in front of them return their light.
+/// Returns the indices of the surfaces that reflect light and lie in the plane of an aperture, for instance the façade
+/// around it: no aperture sees them, but obstructions in front of them return their light.
 pub(super) fn beside(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> {
     let mut beside = in_front(scenery, viewpoints, -IN_PLANE);
     let wanted = wanted(scenery, viewpoints);
@@ -134,8 +140,8 @@ pub(super) fn beside(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Vec<usize> 
     beside
 }
 
-/// Computes the smooth light of all surfaces. Surfaces of `wanted` and those beside an aperture have panels as fine as
-/// their light is steep.
+/// Computes the luminance of all surfaces without the part directly reflected from the sun. The surfaces `wanted` and
+/// those beside an aperture have panels that are refined where the luminance changes steeply.
 pub(super) fn lights(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -146,7 +152,7 @@ pub(super) fn lights(
 ) -> Result<Vec<FaceLight>, Cancelled> {
     let mut lights = coarse(scenery, ground, progress)?;
     let (seen, wanted) = (wanted.len(), [wanted, &beside(scenery, viewpoints)].concat());
-    // Of the ground what is near counts most: a place by the solid angle that it is seen in.
+    // Points of the ground are weighted by the solid angle under which they are seen, so that near ones count most.
     let weight = |index: usize| {
         let face = scenery.surfaces[index].face;
         let ground = index == scenery.ground();
@@ -163,7 +169,8 @@ pub(super) fn lights(
     let views = Views::new(scenery, ground);
     let done = AtomicUsize::new(0);
     let fitted = wanted.par_iter().enumerate().map(|(number, &index)| {
-        // A well stands on the roof around the aperture: its outline is a border there, however few panels there are.
+        // A well stands on the roof around the aperture: its outline must be a border of panels on the roof, whatever
+        // their number.
         let start = ground.panels(scenery, index, if number < seen { most } else { MOST }, FINE_GROUND, false);
         let most = start.panels().max(most) + if index == scenery.ground() { MOST } else { 0 };
         let albedo = scenery.surfaces[index].reflectance / PI;
@@ -180,7 +187,7 @@ pub(super) fn lights(
     });
     let fitted: Vec<FaceLight> = fitted.collect::<Result<_, Cancelled>>()?;
     let before: Vec<f64> = wanted.iter().zip(&fitted).map(|(index, light)| light.mean(&weight(*index))).collect();
-    // Light is reflected between these panels; other surfaces keep what the few panels gave them.
+    // Reflections are solved between these panels; other surfaces keep their luminances from the coarse solution.
     let mut all: Vec<FaceLight> = lights.iter().map(|_| FaceLight::even(0.0)).collect();
     let mut others: Vec<Option<&FaceLight>> = lights.iter().map(Some).collect();
     for (index, light) in wanted.iter().zip(fitted) {
@@ -211,7 +218,8 @@ pub(super) fn lights(
     Ok(lights)
 }
 
-/// Returns the surroundings: boxes and ground with known smooth light, and the sun's own.
+/// Returns the surroundings: boxes and ground with the given smooth luminances, and the part directly reflected from
+/// the sun. `wanted`: indices of the surfaces that are seen; `sun`: direction towards the sun.
 pub(super) fn assembled(
     scenery: &Scenery<'_>,
     ground: &OpenGround,
@@ -243,8 +251,8 @@ pub(super) fn assembled(
     }
 }
 
-/// Returns the lines at which the luminance jumps beside the bodies' own edges: edges of shadows, and lines in which
-/// faces of overlapping boxes meet.
+/// Returns the lines on surfaces, apart from edges of bodies, at which the luminance is discontinuous: edges of
+/// shadows, and lines in which faces of overlapping boxes meet.
 fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line> {
     let mut lines = seams(&scenery.bodies[..scenery.bodies.len() - 1]);
     let Some(sun) = sun else { return lines };
@@ -256,7 +264,7 @@ fn lines(scenery: &Scenery<'_>, seen: &[usize], sun: Option<DVec3>) -> Vec<Line>
     lines
 }
 
-/// Returns the lines in which faces of overlapping boxes meet: borders in view that are edges of neither box.
+/// Returns the lines in which faces of overlapping boxes meet, which are edges of neither box.
 fn seams(solids: &[Solid]) -> Vec<Line> {
     let mut seams = Vec::new();
     for (index, one) in solids.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Shade of the sun on the ground for pictures: the shadows from which the ground's light is computed.
+//! Shadows on the ground for pictures; they are those with which the luminance of the ground is computed.
 
 use super::faces::direct_sun;
 use super::outside::Outside;
@@ -7,23 +7,24 @@ use super::sun::Sun;
 use crate::compute::direction::Orientation;
 use glam::DVec2;
 
-/// Distance below which shadows are joined. \[m\] Chosen: pictures only; the rounding of coordinates of 10⁶ m, the
-/// largest allowed, is a tenth of it.
+/// Distance below which two shadows are joined into one. \[m\] Chosen: pictures only; the rounding of coordinates of
+/// 10⁶ m, the largest allowed, is a tenth of it.
 const JOINED: f64 = 1e-9;
 
-/// The ground with the shadows on it, in room axes.
+/// Ground in front of the building with the shadows of obstructions on it, in the room's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GroundShade {
-    /// Height of the ground. \[m\]
+    /// Height of the ground, z in the room's frame. \[m\]
     pub height: f64,
-    /// Whether the sun lights the ground where nothing shades it.
+    /// Whether direct sun reaches the ground outside the shadows.
     pub is_sunny: bool,
-    /// Shadows for the middle of the sun's disc as (x, y): convex and counter-clockwise; they may overlap. \[m\]
+    /// Outlines of the shadows for the centre of the sun's disc, (x, y) in the room's frame: convex and
+    /// counter-clockwise; they may overlap. \[m\]
     pub shadows: Vec<Vec<DVec2>>,
 }
 
 impl GroundShade {
-    /// Creates the shade of a setting in room axes; `outside`: the sky with its skyline.
+    /// Creates the shadows of obstructions `setting`, given in the room's frame; `outside`: the sky with its skyline.
     pub fn new(setting: &Setting, outside: &Outside, sun: Option<&Sun>, orientation: Orientation) -> Self {
         let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
         let sun = direct_sun(outside, skyline, sun).map(|(direction, _)| orientation.to_room(direction));
@@ -34,7 +35,8 @@ impl GroundShade {
         }
     }
 
-    /// Returns the shaded parts of the line along the depth at `x`: lower and upper y of each, in order. \[m\]
+    /// Returns the shaded intervals of the line of constant `x` on the ground: lower and upper y of each, rising,
+    /// room's frame. \[m\]
     pub fn stretches(&self, x: f64) -> Vec<[f64; 2]> {
         let mut stretches: Vec<[f64; 2]> = self.shadows.iter().filter_map(|shadow| stretch(shadow, x)).collect();
         stretches.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -49,7 +51,7 @@ impl GroundShade {
     }
 }
 
-/// Returns the part of the line at `x` that lies in a convex polygon: lower and upper y.
+/// Returns the interval of the line of constant `x` that lies in a convex polygon: lower and upper y.
 fn stretch(polygon: &[DVec2], x: f64) -> Option<[f64; 2]> {
     let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
     let crossed = sides.filter(|(p, q)| p.x != q.x && (p.x - x) * (q.x - x) <= 0.0);

@@ -1,4 +1,4 @@
-//! Illuminance of the open horizontal plane under a relative distribution, by which a sky is scaled.
+//! Illuminance of the unobstructed horizontal plane by a relative luminance distribution, by which a sky is scaled.
 
 use super::distribution::{Distribution, Model};
 use super::gradated::Gradated;
@@ -11,16 +11,16 @@ use std::sync::OnceLock;
 /// Method by which the integrals of a gradated sky are computed.
 #[derive(Clone, Copy)]
 enum Rule {
-    /// Adaptive, to this relative accuracy.
+    /// Adaptive integration to this relative accuracy.
     Adaptive(f64),
     /// Fixed number of Gauss points between knots, [`POINTS`].
     Fixed,
 }
 
-/// Rules of the inner and the outer integral, together well below the 1e-8 to which luminances of patches are
-/// integrated.
+/// Rules of the inner and the outer integral; their accuracy is far better than the 1e-8 to which mean luminances of
+/// patches are integrated.
 const EXACT: [Rule; 2] = [Rule::Adaptive(1e-11), Rule::Adaptive(1e-10)];
-/// Rules of both integrals for skies of which there are thousands.
+/// Rules of both integrals for annual simulations with thousands of skies.
 const QUICK: [Rule; 2] = [Rule::Fixed, Rule::Fixed];
 /// Number of Gauss points between knots. Chosen: cost; the error is [`QUICK_ERROR`].
 const POINTS: usize = 14;
@@ -32,6 +32,7 @@ const QUICK_ERROR: f64 = 2e-5;
 const AROUND_SUN: f64 = 0.6;
 
 impl Rule {
+    /// Integrates a function between the first and the last of the knots (rising), at which it may have kinks.
     fn integrate(self, mut f: impl FnMut(f64) -> f64, knots: &[f64]) -> Estimate {
         static GAUSS: OnceLock<Vec<(f64, f64)>> = OnceLock::new();
         match self {
@@ -52,17 +53,19 @@ impl Rule {
     }
 }
 
-/// Computes ∫ L cosZ dω over the upper hemisphere, L relative.
+/// Computes ∫ L cosZ dω over the upper hemisphere for the relative luminance L of a distribution, Z the zenith angle.
+/// \[sr\]
 pub(super) fn horizontal_illuminance(distribution: &Distribution) -> Estimate {
     within(distribution, EXACT)
 }
 
-/// Computes ∫ L cosZ dω over the upper hemisphere, L relative, with an error of 2e-5 at most, by a fixed number of
-/// luminances.
+/// Computes ∫ L cosZ dω over the upper hemisphere for the relative luminance L of a distribution from a fixed number of
+/// directions, with a relative error of at most 2e-5. \[sr\]
 pub(super) fn horizontal_illuminance_quickly(distribution: &Distribution) -> Estimate {
     within(distribution, QUICK)
 }
 
+/// Computes ∫ L cosZ dω of a relative luminance L with the rules of the inner and outer integral. \[sr\]
 fn within(distribution: &Distribution, rules: [Rule; 2]) -> Estimate {
     match &distribution.model {
         Model::Uniform => Estimate::exact(PI),
@@ -135,7 +138,7 @@ fn gradated(sky: &Gradated, altitude: f64, [inner_rule, outer_rule]: [Rule; 2]) 
     Estimate::new(outer.value, outer.error + PI * inner_error)
 }
 
-/// Returns ψ ∈ 0 … π up to which level + swing·cosψ exceeds z.
+/// Returns the angle ψ, 0 … π, up to which `level` + `swing`·cosψ exceeds `z`. \[rad\]
 fn circle_angle(level: f64, swing: f64, z: f64) -> f64 {
     if level - swing >= z {
         PI
@@ -156,8 +159,8 @@ pub(super) fn gradation_zero(sky: &Gradated) -> Option<f64> {
 /// Returns the angles from the sun at which the indicatrix changes sign. \[rad\]
 pub(super) fn indicatrix_zeros(sky: &Gradated) -> Vec<f64> {
     let raw = |chi: f64| sky.base + sky.c * (sky.d * chi).exp() + sky.e * chi.cos().powi(2);
-    /// Number of intervals that are searched for a change of sign: one per degree. Zeros closer together enclose a part
-    /// of the sky that is too small and too faint to count.
+    /// Number of intervals of the angle that are searched for a change of sign: one per degree. Zeros closer together
+    /// enclose a part of the sky that is too small and too faint to count.
     const STEPS: usize = 180;
     let at = |i: usize| PI * i as f64 / STEPS as f64;
     let mut zeros = Vec::new();

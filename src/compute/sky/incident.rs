@@ -1,4 +1,5 @@
-//! Illuminance of an aperture from each cell of a division of its hemisphere: the outside as a vector over a basis.
+//! Illuminance of an aperture from each cell of a basis of its outer hemisphere: sky, ground and obstructions as a
+//! vector over the basis.
 
 use super::integral::integrate_region;
 use super::on_dome;
@@ -11,17 +12,21 @@ use crate::compute::quadrature::Tolerance;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Relative accuracy of every cell. Held by `tests/compute/sky.rs::incident_cells_sum_to_the_facade`, to 4e-6.
+/// Relative accuracy of the illuminance from every cell. Held by
+/// `tests/compute/sky.rs::incident_cells_sum_to_the_facade`, to 4e-6.
 const RELATIVE: f64 = 1e-6;
 
-/// Computes E_i = ∫_cell L cosθ dω for every cell of `basis`, in its order, without the beam. \[lx\]
+/// Computes the illuminances E_i = ∫_cell L cosθ dω of an aperture from every cell of `basis` by sky, ground and
+/// obstructions, without direct sun. \[lx\] `frame`: axes of the aperture's plane. The result has the order of the
+/// cells.
 ///
 /// Cells are computed independently: the result does not depend on the number of threads.
 pub fn incident_illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame) -> Vec<Estimate> {
     incident_illuminances_within(outside, basis, frame, RELATIVE)
 }
 
-/// Computes [`incident_illuminances`] to a given relative accuracy.
+/// Computes the illuminances of an aperture from every cell of `basis`, like [`incident_illuminances`], to the relative
+/// accuracy `relative`. \[lx\]
 pub fn incident_illuminances_within(
     outside: &Outside,
     basis: &RingBasis,
@@ -36,7 +41,7 @@ pub fn incident_illuminances_within(
         .map(|index| {
             let cell = basis.cell(index);
             let share = cell.projected_solid_angle() / PI;
-            // Cells wider than a quarter are cut: the rules are made for smooth pieces.
+            // Cells wider than a quarter turn are divided, because the quadrature rules are made for smooth pieces.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
             let tolerance = Tolerance {
@@ -55,7 +60,8 @@ pub fn incident_illuminances_within(
         .collect()
 }
 
-/// Computes the illuminances of the cells with surroundings: the open sky's light, changed where they hide it.
+/// Computes the illuminances from the cells with surroundings: those by the unobstructed sky and ground, changed where
+/// the surroundings hide them.
 fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<Estimate> {
     let open = outside.open();
     let compute = || incident_illuminances_within(&open, basis, frame, relative);
@@ -68,7 +74,7 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
         .map(|index| {
             let cell = basis.cell(index);
             let free = free[index];
-            // Wide cells in quarters, as without surroundings.
+            // Cells wider than a quarter turn are divided, like without surroundings.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0);
             let step = cell.width / pieces;
             let share = whole * cell.projected_solid_angle() / PI;
@@ -101,8 +107,8 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
             if !met {
                 return free;
             }
-            // By the same points what is hidden and what there was: their ratio knows a cell that is hidden altogether.
-            // Where little is hidden, its difference is nearer.
+            // Hidden and open illuminance by the same points: their ratio is exact for a fully hidden cell; where
+            // little is hidden, their difference is more accurate.
             let left = if untouched == 0.0 && sum.behind > 0.5 * sum.open {
                 free.value * (1.0 - sum.behind / sum.open).max(0.0)
             } else {
@@ -113,9 +119,10 @@ fn past(outside: &Outside, before: &Before, basis: &RingBasis, frame: &Frame, re
         .collect()
 }
 
-/// Relative accuracy of the change by the surroundings. Chosen: a twentieth of the default error target; held by the
-/// test `narrow_and_steep_skylines_give_what_they_hold` of `on_dome`, to 1e-3.
+/// Relative accuracy of the change of an illuminance by the surroundings. Chosen: a twentieth of the default error
+/// target; held by the test `narrow_and_steep_skylines_give_what_they_hold` of `on_dome`, to 1e-3.
 const PAST: f64 = 5e-4;
-/// Relative accuracy of the change that obstructions make to the light of the whole hemisphere, which is one sweep: its
-/// error then is small beside what a part of an aperture adds. Chosen: a hundredth of the default error target.
+/// Relative accuracy of the change that obstructions make to the illuminance from the whole hemisphere, which is one
+/// sweep: its error is then small compared with that by the division of the aperture. Chosen: a hundredth of the
+/// default error target.
 const PAST_ALL: f64 = 1e-4;

@@ -1,4 +1,4 @@
-//! Integrals of the outside luminance over regions of the sphere.
+//! Integrals of the luminance of sky, skyline and ground over regions of the sphere.
 //!
 //! Ground and skyline are closed forms in θ, and the sky is smooth between known knots of φ. The circumsolar tip, where
 //! the luminance has a kink, becomes the corner of triangles that map it away (Duffy's transformation).
@@ -14,7 +14,7 @@ use crate::compute::estimate::Estimate;
 use crate::compute::quadrature::{Rectangle, Tolerance, integrate, integrate_rectangles};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Computes ∫ L · weight over a region of sky, skyline and ground.
+/// Computes ∫ L · weight dω over a region for the luminance L of sky, skyline and ground, without obstructions.
 pub(super) fn integrate_region(outside: &Outside, region: &Region, weight: Weight, tolerance: Tolerance) -> Estimate {
     let mut inner = Vec::new();
     region.cut_knots(0.0, &mut inner);
@@ -50,13 +50,14 @@ fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f
     )
 }
 
-/// Distance from the pole below which a sun is small in θ and yet wide in φ. \[rad\] Chosen; held by
-/// `tests/compute/sky.rs::a_sun_near_the_zenith_is_not_missed`, with suns up to 4° (0.07 rad) from the pole.
+/// Angular distance of the sun from the pole of the frame below which the circumsolar region is narrow in θ and yet
+/// wide in φ. \[rad\] Chosen; held by `tests/compute/sky.rs::a_sun_near_the_zenith_is_not_missed`, with suns up to 4°
+/// (0.07 rad) from the pole.
 const NEAR_POLE: f64 = 0.1;
 
-/// Integrates the open sky over one strip of azimuths between knots. Around a pole near the sun the luminance changes
-/// within a small part of the strip, which a rule for all of it could miss: pieces then grow with the distance from the
-/// pole.
+/// Computes the integral of the sky's luminance over a strip of azimuths between knots. Around a pole near the sun the
+/// luminance changes within a small part of the strip, which one quadrature rule could miss; the strip is then divided
+/// into pieces that grow with the distance from the pole.
 fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight, tolerance: Tolerance) -> Estimate {
     let sun = outside.sun_direction().map_or(PI, |sun| region.frame.angles(sun.vector()).0);
     if !(1e-9..NEAR_POLE).contains(&sun) {
@@ -69,7 +70,7 @@ fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight
     cuts.windows(2).map(|pair| sky_piece(outside, region, phi, (pair[0], pair[1]), weight, tolerance)).sum()
 }
 
-/// Integrates the open sky over the part of a strip between two angles from the pole.
+/// Computes the integral of the sky's luminance over the part of a strip between two angles from the pole.
 fn sky_piece(
     outside: &Outside,
     region: &Region,
@@ -117,7 +118,7 @@ fn sky_piece(
         .sum()
 }
 
-/// Returns the place of the circumsolar tip in a strip's unit square, if it lies there.
+/// Returns the position of the circumsolar peak in a strip's unit square; `None` if it does not lie in the strip.
 fn tip(
     outside: &Outside,
     region: &Region,
@@ -126,11 +127,12 @@ fn tip(
     limits: &impl Fn(f64) -> Option<(f64, f64)>,
 ) -> Option<(f64, f64)> {
     let (theta, phi) = region.frame.angles(outside.sun_direction()?.vector());
-    // At the pole the tip is a whole side of the square and the integrand smooth in θ as it is.
+    // If the tip is the pole, it is a whole side of the square, and the integrand is smooth in θ without the
+    // transformation.
     if theta < 1e-9 {
         return None;
     }
-    /// Angle by which a tip may lie outside of a strip and still counts as on its border: rounding of angles is 1e-15.
+    /// Angle by which the peak may lie outside a strip and still counts as on its border: rounding of angles is 1e-15.
     /// \[rad\]
     const SLACK: f64 = 1e-9;
     let x = (phi - phi_min + SLACK).rem_euclid(2.0 * PI) - SLACK;
@@ -142,11 +144,11 @@ fn tip(
     (theta > low - SLACK && theta < high + SLACK).then(|| (x, ((theta - low) / (high - low)).clamp(0.0, 1.0)))
 }
 
-/// Relative error of the change by the surroundings. Held by the test
+/// Relative error of the change of an integral by the surroundings. Held by the test
 /// `black_boxes_hide_the_projected_solid_angles_of_their_faces`, to twice as much.
 const CHANGED: f64 = 1e-5;
 
-/// Computes the change of a region's integral by the surroundings.
+/// Computes the difference that surroundings make to the integral of the luminance over a region.
 fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
@@ -154,7 +156,7 @@ fn changed(outside: &Outside, region: &Region, weight: Weight) -> Estimate {
     found.map_or_else(Estimate::default, change)
 }
 
-/// Computes the change of a plane's illuminance by the surroundings. \[lx\]
+/// Computes the difference that surroundings make to the illuminance of a plane. \[lx\]
 fn changed_on(outside: &Outside, plane: &Frame) -> Estimate {
     let Some((surroundings, eye)) = outside.foreground() else { return Estimate::default() };
     let open = outside.open();
@@ -162,15 +164,16 @@ fn changed_on(outside: &Outside, plane: &Frame) -> Estimate {
     found.into_iter().flatten().map(change).sum()
 }
 
-/// Returns the difference that the surroundings make.
+/// Returns the difference between the light of the surroundings and the light that they hide.
 fn change((parts, error): (Parts, f64)) -> Estimate {
     Estimate::new(parts.before - parts.behind, error + parts.uncertainty)
 }
 
-/// Computes the illuminance of a plane from sky, skyline, ground and surroundings, without the beam. \[lx\]
+/// Computes the illuminance of a plane by sky, skyline, ground and surroundings, without direct sun. \[lx\] `normal`:
+/// of the plane.
 pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     let frame = Frame::facing(normal);
-    // Quarters: shorter pieces, and the knots of a façade's horizon among them.
+    // In quarters of the azimuth, whose borders include the kinks at a façade's horizon.
     let open: Estimate = (0..4)
         .map(|quarter| {
             let from = f64::from(quarter) * FRAC_PI_2;
@@ -182,10 +185,11 @@ pub fn irradiance(outside: &Outside, normal: Dir<World>) -> Estimate {
     open + changed_on(outside, &frame)
 }
 
-/// Computes the mean luminance over a patch's band cell, eq 9; a skyline cuts it exactly. \[cd/m²\]
+/// Computes the mean luminance of a patch of the sky dome (eq 9) with the skyline and obstructions in it, weighted by
+/// solid angle. \[cd/m²\]
 pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
     let tolerance = Tolerance::relative(1e-8);
-    // The cap goes all the way round: in quarters, as the rules are made for smooth pieces.
+    // The cap around the zenith is divided into quarters, because the quadrature rules are made for smooth pieces.
     let pieces = if patch.width > PI { 4 } else { 1 };
     let step = patch.width / f64::from(pieces);
     let flux: Estimate = (0..pieces)
@@ -197,7 +201,7 @@ pub fn mean_luminance(outside: &Outside, patch: &Patch) -> Estimate {
         })
         .sum();
     let mean = flux * (1.0 / patch.solid_angle());
-    // The sky of a patch that is wholly hidden is subtracted again: what remains of it is error, not light.
+    // For a fully hidden patch, the sky is added and subtracted: a negative remainder is error.
     Estimate::new(mean.value.max(0.0), mean.error)
 }
 

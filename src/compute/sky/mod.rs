@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `distribution` | relative luminance of every model |
 //! | `cie`, `perez`, `scan` | parameters of the models |
-//! | `horizontal` | the exact illuminance of the horizontal plane, which scales a sky |
+//! | `horizontal` | illuminance of the horizontal plane by a relative luminance, which scales a sky |
 //! | `availability`, `clear_sky` | typical illuminances by the sun's altitude |
 //! | `patches` | Tregenza's 145 patches of the dome |
 //! | `outside` | a scaled sky over ground, behind a skyline |
@@ -16,11 +16,11 @@
 //! | `faces`, `vista`, `received`, `open_ground`, `equations` | light on these surfaces |
 //! | `prepared`, `dome`, `sunlit` | light on surfaces under many skies and suns |
 //! | `ground_shade` | shade of the sun on the ground, for pictures |
-//! | `incident` | illuminance of an aperture per cell of a basis |
-//! | `samples` | illuminance of an aperture per cell under smooth skies, by fixed directions |
+//! | `incident` | illuminance of an aperture from every cell of a basis |
+//! | `samples` | illuminance of an aperture from every cell under smooth skies, by fixed directions |
 //! | `sun` | the sun's disc |
 //!
-//! The direct beam is never part of an [`Outside`]; it is a [`Sun`].
+//! Direct sun is never part of an [`Outside`]; it is a [`Sun`].
 
 pub mod availability;
 pub mod cie;

@@ -1,8 +1,8 @@
-//! Integrals over a region of any frame, swept by the bearing.
+//! Integrals of the luminance over a region of any frame, swept by the compass bearing.
 //!
-//! Along the meridian of a bearing a skyline is one altitude, the rows of a measured sky are fixed ones, and its
-//! sectors begin and end with bearings: none of them can be missed, however steep or narrow. The region's own rims are
-//! met in closed form, too: cones about its axis, and half planes through it.
+//! Along the meridian of a bearing a skyline is one altitude, the rows of a measured sky are fixed altitudes, and its
+//! sectors begin and end at bearings: none of them can be missed, however steep or narrow. The borders of the region
+//! (cones about its axis, and half planes through it) are met in closed form, too.
 
 use super::prospect::{Near, Parts, Prospect, on_cone};
 use super::region::{Frame, Region, Weight};
@@ -11,13 +11,13 @@ use crate::compute::sweep::sweep;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Maximum distance from a region at which the zenith counts as in it. \[rad\] Chosen: cost only; a region that does
-/// not quite reach it is then swept over all bearings.
+/// Maximum angular distance from a region at which the zenith counts as in it. \[rad\] Chosen: cost only; a region that
+/// does not quite reach it is then swept over all bearings.
 const AT_ZENITH: f64 = 1e-6;
 
-/// Integrates over a region the surroundings, and the sky and ground behind them, with the error of the cubature;
-/// `None` where nothing stands there. The sweep is by bearings where that is simpler, else by meridians of the region's
-/// own frame.
+/// Computes the integrals of the luminance of the surroundings, and of sky and ground behind them, over a region, with
+/// the error of the cubature; `None` if there are no surroundings in the region. The sweep is by bearings where that is
+/// simpler, otherwise by meridians of the region's frame.
 pub(super) fn over(
     prospect: &Prospect<'_>,
     region: &Region,
@@ -33,8 +33,8 @@ pub(super) fn over(
     (parts.behind > 0.0 || parts.before > 0.0).then_some((parts, error))
 }
 
-/// Integrates over the hemisphere in front of a plane, weighted by the cosine to its normal, in parts like [`over`].
-/// The meridians along most edges take it as one part; where those of the dome are needed, it is four quarters.
+/// Computes the integrals of [`over`] over the hemisphere in front of a plane, weighted by the cosine to its normal: as
+/// one part with meridians along most edges, or as four quarters where the meridians of the dome are needed.
 pub(super) fn over_hemisphere(
     prospect: &Prospect<'_>,
     plane: &Frame,
@@ -54,7 +54,7 @@ pub(super) fn over_hemisphere(
     (0..4).map(quarter).collect()
 }
 
-/// Computes [`over`] by bearings.
+/// Computes the integrals of [`over`] by a sweep over bearings.
 fn by_bearings(
     prospect: &Prospect<'_>,
     region: &Region,
@@ -92,18 +92,19 @@ fn by_bearings(
     (Parts::of(sums), error)
 }
 
-/// Returns the normal of the half plane of an azimuth.
+/// Returns the normal of the half plane of an azimuth of the region's frame.
 fn side(region: &Region, phi: f64) -> DVec3 {
     let (sin, cos) = phi.sin_cos();
     region.frame.y * cos - region.frame.x * sin
 }
 
-/// Returns the zenith angles at which the meridian along a bearing meets a cone about an axis.
+/// Returns the zenith angles at which the meridian along a bearing meets a cone about an axis with the half-angle
+/// `theta`. \[rad\]
 fn cone_at(axis: DVec3, theta: f64, along: DVec3) -> impl Iterator<Item = f64> {
     let (a, b) = (axis.dot(along), axis.z);
     let cosine = theta.cos() / a.hypot(b);
     let (middle, half) = (a.atan2(b), cosine.acos());
-    // Beyond ±1 the arc cosine is not a number, and no angle is given.
+    // Beyond ±1 the arc cosine is not a number: there is no such angle.
     [middle - half, middle + half, middle + half - 2.0 * PI].into_iter().filter(|at| *at > 0.0 && *at < PI)
 }
 
@@ -118,7 +119,8 @@ fn bearings(prospect: &Prospect<'_>, region: &Region, near: &Near, sides: &[DVec
         from - 2.0 * PI * (from / (2.0 * PI)).round()
     };
     let of = |v: DVec3| turned(v.x.atan2(v.y));
-    // Where it begins and ends: at its corners, or where a rim touches a meridian.
+    // Candidates for the ends of the region's bearings: its corners, and points at which a limit in θ touches a
+    // meridian.
     let mut ends: Vec<DVec3> = thetas.iter().flat_map(|t| phis.map(|p| frame.direction(*t, p))).collect();
     for theta in thetas {
         ends.extend(touching(frame.z, theta).into_iter().flatten().filter(|at| region.holds(*at, 1e-9)));

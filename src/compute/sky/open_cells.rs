@@ -1,15 +1,15 @@
-//! Cache of the open sky on cells: it is the same from every point of an aperture.
+//! Cache of the illuminances from cells by the unobstructed sky, which are the same at every point of an aperture.
 
 use super::region::Frame;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::Estimate;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Cached illuminances by the open sky of one outside.
+/// Cached illuminances from cells by the unobstructed sky and ground of one outside.
 #[derive(Debug, Default)]
 pub(super) struct OpenCells(Mutex<Vec<Kept>>);
 
-/// Illuminances by the cells of a basis in a frame.
+/// Illuminances of a plane from the cells of a basis.
 #[derive(Debug)]
 struct Kept {
     basis: RingBasis,
@@ -19,7 +19,7 @@ struct Kept {
 }
 
 impl OpenCells {
-    /// Returns the illuminances by the cells of a basis, computed if they are not there yet.
+    /// Returns the illuminances from the cells of a basis \[lx\], computed if they are not in the cache yet.
     pub fn get(
         &self,
         basis: &RingBasis,
@@ -27,7 +27,7 @@ impl OpenCells {
         relative: f64,
         compute: impl FnOnce() -> Vec<Estimate>,
     ) -> Arc<Vec<Estimate>> {
-        // What is kept is whole even if another thread has failed while it held the lock.
+        // The cache is valid even if another thread panicked while it held the lock.
         let find = || {
             let kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let same = |one: &&Kept| one.relative == relative && one.frame == *frame && one.basis == *basis;

@@ -1,38 +1,38 @@
-//! Places where light on faces and on the ground is computed: panels of faces, and the ground as far as it differs from
-//! open ground.
+//! Panels on which the luminance of faces and of the ground is computed; the ground has panels as far as obstructions
+//! change its luminance.
 
 use super::scenery::Scenery;
 use crate::compute::surroundings::face_light::{FaceLight, Limits};
 use crate::compute::surroundings::solid::{Face, Solid};
 use glam::DVec3;
 
-/// Distance of a body from a face, relative to the face's size, below which it casts a steep gradient of light: its
-/// outline is then a border of panels. Chosen: cost; results change within their stated error.
+/// Distance of a body from a face, relative to the face's size, below which it causes a steep gradient of illuminance
+/// on the face: its outline is then a border of panels. Chosen: cost; results change within their stated error.
 const CLOSE: f64 = 0.2;
-/// Width, as a share of a side, below which panels are not made at the outset. Chosen: cost; results change within
-/// their stated error.
+/// Minimum width of the first panels, as a share of a side of the face. Chosen: cost; results change within their
+/// stated error.
 const NARROW: f64 = 0.03;
-/// Distance up to which the ground differs from open ground, in heights of the highest body: in front of a long wall
-/// its deficit falls as (height/distance)²/4. At 25 heights that is 4e-4.
+/// Distance up to which the luminance of the ground differs from that of unobstructed ground, in heights of the highest
+/// body: in front of a long wall its deficit falls like (height/distance)²/4, at 25 heights to 4e-4.
 const GROUND: f64 = 25.0;
-/// Minimum length within which the ground's light changes near a body. \[m\] Chosen: cost; panels are halved where the
-/// light is steeper, and results change within their stated error.
+/// Minimum length over which the illuminance of the ground changes near a body. \[m\] Chosen: cost; panels are halved
+/// where the illuminance changes more steeply, and results change within their stated error.
 const LEAST: f64 = 0.15;
 
-/// The ground as far as bodies change its light, with its luminance beyond.
+/// Area of the ground whose luminance is changed by bodies, and the luminance of the ground outside.
 pub(super) struct OpenGround {
     pub limits: Limits,
-    /// Luminance of the ground beyond, without the sun's own light. \[cd/m²\]
+    /// Luminance of the ground outside `limits`, without the part directly reflected from the sun. \[cd/m²\]
     pub luminance: f64,
-    /// Bodies on the ground or above it: outline in the ground's coordinates, a length in which its light changes, and
-    /// whether the body's foot is a border.
+    /// Bodies on the ground or above it: outline in the ground's coordinates \[m\], a length over which the illuminance
+    /// changes \[m\], and whether the body's outline is a border of panels.
     near: Vec<(Limits, f64, bool)>,
     /// Viewpoints in the ground's coordinates. \[m\]
     eyes: Vec<[f64; 2]>,
 }
 
 impl OpenGround {
-    /// Creates the ground of a scenery; `viewpoints`: points that it is seen from, world's axes. \[m\]
+    /// Creates the area of a scenery's ground; `viewpoints`: points from which it is seen, in the world's axes. \[m\]
     pub fn of(scenery: &Scenery<'_>, viewpoints: &[DVec3]) -> Self {
         let surface = &scenery.surfaces[scenery.ground()];
         let height = scenery.ground_height();
@@ -62,7 +62,9 @@ impl OpenGround {
         Self { limits, luminance, near, eyes }
     }
 
-    /// Returns dark panels of a surface.
+    /// Returns panels of luminance 0 for the surface with index `index`. `most`: maximum number of panels of a face;
+    /// `coarse`: maximum length of ground panels, relative to the size or distance of the nearest body; `single`:
+    /// whether a panel has one node only.
     pub fn panels(&self, scenery: &Scenery<'_>, index: usize, most: usize, coarse: f64, single: bool) -> FaceLight {
         let surface = &scenery.surfaces[index];
         if index == scenery.ground() {
@@ -80,8 +82,8 @@ impl OpenGround {
         })
     }
 
-    /// Returns the axis across which a panel of the ground is cut and the coordinate: at feet, then where it is long
-    /// for a near body.
+    /// Returns the index of the axis across which a panel of the ground is divided, and the coordinate: at the outlines
+    /// of bodies, then in the middle of panels that are long compared with the nearest body.
     fn cut(&self, panel: &Limits, factor: f64) -> Option<(usize, f64)> {
         let gap = |axis: usize, outline: &Limits| {
             (outline[axis][0] - panel[axis][1]).max(panel[axis][0] - outline[axis][1]).max(0.0)
@@ -101,22 +103,22 @@ impl OpenGround {
         let length = |axis: usize| panel[axis][1] - panel[axis][0];
         let axis = usize::from(length(1) > length(0));
         let away = |outline: &Limits| gap(0, outline).hypot(gap(1, outline));
-        // What is far from all eyes is seen no better than what is near them.
+        // Panels may be longer at a greater distance from all viewpoints.
         let eye = self.eyes.iter().map(|[u, v]| away(&[[*u; 2], [*v; 2]])).fold(f64::INFINITY, f64::min);
         let long = length(axis) > 0.5 * factor * eye
             && self.near.iter().any(|(outline, size, _)| length(axis) > 1.001 * factor * size.max(away(outline)));
         long.then(|| (axis, 0.5 * (panel[axis][0] + panel[axis][1])))
     }
 
-    /// Whether a place of the ground is so near that bodies change its light.
+    /// Whether a point of the ground lies in the area whose luminance is changed by bodies.
     pub fn holds(&self, [u, v]: [f64; 2]) -> bool {
         let [[a, b], [c, d]] = self.limits;
         (a..=b).contains(&u) && (c..=d).contains(&v)
     }
 }
 
-/// Returns the borders of a face's first panels along both axes: the outlines of close bodies, thinned out until they
-/// make no more than `most` panels.
+/// Returns the borders of a face's first panels along both axes: the outlines of close bodies, of which every other one
+/// is dropped until there are at most `most` panels.
 fn borders(face: &Face, others: &[&Solid], most: usize) -> [Vec<f64>; 2] {
     let corners = face.corners();
     let size = face.limits.map(|[low, high]| high - low);
@@ -142,7 +144,7 @@ fn borders(face: &Face, others: &[&Solid], most: usize) -> [Vec<f64>; 2] {
     });
     while (borders[0].len() - 1) * (borders[1].len() - 1) > most {
         let longer = usize::from(borders[1].len() > borders[0].len());
-        // Every other one, but both ends.
+        // Every other border is removed, but not the two ends.
         let last = borders[longer].len() - 1;
         let mut index = 0;
         borders[longer].retain(|_| {

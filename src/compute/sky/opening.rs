@@ -1,7 +1,7 @@
-//! The outside behind obstructions, seen through an opening.
+//! Illuminance by sky and ground behind obstructions, seen through an aperture.
 //!
-//! Azimuths are swept about the zenith: there the horizon, the skyline, vertical edges and the sun's altitude are
-//! simple.
+//! The integral is swept over azimuths about the zenith, for which the horizon, the skyline, vertical edges and the
+//! sun's altitude are simple.
 
 use super::outside::Outside;
 use super::prospect::Prospect;
@@ -14,10 +14,11 @@ use crate::compute::sweep::{rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Computes the illuminance from the outside seen through a convex opening, every direction weighted by `tau`. \[lx\]
+/// Computes the illuminance of a receiver by sky, ground and obstructions seen through a convex aperture, the luminance
+/// of every direction multiplied by `tau`. \[lx\]
 ///
-/// `corners`: of the opening, as vectors from the point that the outside is seen from ([`Outside::seen_from`]), all of
-/// them in front of the receiver whose unit normal is `normal`.
+/// `corners`: of the aperture, as vectors from the receiver's position ([`Outside::seen_from`]) in the world's axes
+/// \[m\], all of them in front of the receiver; `normal`: normal of the receiver.
 pub fn irradiance_through(
     outside: &Outside,
     corners: &[DVec3],
@@ -30,7 +31,8 @@ pub fn irradiance_through(
     let prospect = Prospect::new(&open, surroundings, eye);
     let normal = normal.vector();
     let middle = corners.iter().sum::<DVec3>().normalize_or_zero();
-    // What is seen through it lies within the cone of its corners; where they form no cone, anywhere.
+    // Obstructions visible through the opening lie within the cone around its corners; without such a cone (≥ 90°), all
+    // count.
     let aside = corners.iter().map(|corner| middle.dot(corner.normalize_or_zero())).fold(1.0, f64::min);
     let reach = if aside > 1e-6 { aside.min(1.0).acos() + 1e-6 } else { PI };
     let near = prospect.near(&Cap { middle, reach }).unwrap_or_default();
@@ -44,7 +46,7 @@ pub fn irradiance_through(
         .collect();
     let within = |d: DVec3| planes.iter().all(|plane| plane.dot(d) >= 0.0);
     let frame = Frame::DOME;
-    // Azimuths from the middle's on, so that the opening does not lie across the ends.
+    // Azimuths are counted from the opening's middle, so that the opening does not lie across ±180°.
     let reference = frame.angles(middle).1;
     let turned = |v: DVec3| {
         let from = frame.angles(v).1 - reference;

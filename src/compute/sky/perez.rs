@@ -1,4 +1,5 @@
-//! Perez all-weather skies: state of the sky from irradiances, its luminance coefficients and luminous efficacies.
+//! Perez all-weather skies: clearness and brightness of the sky from irradiances, coefficients of its luminance, and
+//! luminous efficacies.
 //!
 //! Sources: Perez, Seals, Michalsky, "All-weather model for sky luminance distribution", Solar Energy 50 (1993)
 //! 235–245; Perez, Ineichen, Seals, Michalsky, Stewart, "Modeling daylight availability …", Solar Energy 44 (1990)
@@ -7,26 +8,29 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-/// Solar constant at the sun's mean distance: the value of the model, as in Radiance's `gendaylit`. \[W/m²\]
+/// Solar constant at the sun's mean distance. \[W/m²\] Value of Perez's model, used by Radiance's `gendaylit`.
 pub const SOLAR_CONSTANT: f64 = 1367.0;
-/// Lower borders of the clearness bins 2 … 8 (Perez et al. 1990, 1993).
+/// Lower limits of the clearness ε of the bins 2 … 8. Source: Perez et al. 1990, 1993.
 const BIN_BORDERS: [f64; 7] = [1.065, 1.23, 1.5, 1.95, 2.8, 4.5, 6.2];
 
-/// Water content of the air and distance to the sun, as far as they are known.
+/// Water content of the air and distance to the sun, for the luminous efficacies of Perez's model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
-    /// Square of the sun's mean distance over that of the day, see [`eccentricity`].
+    /// Irradiance of the sun outside the atmosphere relative to its mean: the square of the sun's mean distance over
+    /// that of the day, see [`eccentricity`].
     pub eccentricity: f64,
-    /// Precipitable water. \[cm\]
+    /// Precipitable water in the atmosphere. \[cm\]
     pub water: f64,
 }
 
 impl Air {
-    /// Air without a date and with unknown water content: 2 cm, by Radiance's dew point of 11 °C.
+    /// Default without a date and with unknown water content: mean distance of the sun, 2 cm of precipitable water
+    /// (Radiance's dew point of 11 °C).
     pub const UNKNOWN: Self = Self { eccentricity: 1.0, water: 2.0 };
 }
 
-/// Luminance coefficients a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ per clearness bin (Perez et al. 1993).
+/// Coefficients a₁…a₄, b₁…b₄, c₁…c₄, d₁…d₄, e₁…e₄ of the relative luminance per clearness bin. Source: Perez et al.
+/// 1993.
 const LUMINANCE: [[[f64; 4]; 5]; 8] = [
     [
         [1.3525, -0.2576, -0.2690, -1.4366],
@@ -86,7 +90,8 @@ const LUMINANCE: [[[f64; 4]; 5]; 8] = [
     ],
 ];
 
-/// Luminous efficacy of the diffuse light per bin: a + b·W + c·cosZ + d·lnΔ (Perez et al. 1990). \[lm/W\]
+/// Coefficients of the luminous efficacy of diffuse light per clearness bin: a + b·W + c·cosZ + d·lnΔ. \[lm/W\] Source:
+/// Perez et al. 1990.
 const DIFFUSE_EFFICACY: [[f64; 4]; 8] = [
     [97.24, -0.46, 12.00, -8.91],
     [107.22, 1.15, 0.59, -3.95],
@@ -98,7 +103,8 @@ const DIFFUSE_EFFICACY: [[f64; 4]; 8] = [
     [152.23, 0.35, -45.27, -7.98],
 ];
 
-/// Luminous efficacy of the beam per bin: max(0, a + b·W + c·e^{5.73Z−5} + d·Δ) (Perez et al. 1990). \[lm/W\]
+/// Coefficients of the luminous efficacy of direct sun per clearness bin: max(0, a + b·W + c·e^{5.73Z−5} + d·Δ).
+/// \[lm/W\] Source: Perez et al. 1990.
 const DIRECT_EFFICACY: [[f64; 4]; 8] = [
     [57.20, -4.55, -2.98, 117.12],
     [98.99, -3.46, -1.21, 12.38],
@@ -110,43 +116,47 @@ const DIRECT_EFFICACY: [[f64; 4]; 8] = [
     [101.18, 1.58, -1.10, -8.29],
 ];
 
-/// Returns (r₀/r)² of the earth's orbit, the sun's irradiance relative to its mean, on a day of the year counted from 1
-/// (Spencer, "Fourier series representation of the position of the sun", Search 2 (1971) 172).
+/// Returns (r₀/r)² of the earth's orbit, the irradiance of the sun outside the atmosphere relative to its mean, on a
+/// day of the year counted from 1 (Spencer, "Fourier series representation of the position of the sun", Search 2 (1971)
+/// 172).
 pub fn eccentricity(day: u16) -> f64 {
     let angle = 2.0 * std::f64::consts::PI * (f64::from(day) - 1.0) / 365.0;
     let ((sin, cos), (sin_twice, cos_twice)) = (angle.sin_cos(), (2.0 * angle).sin_cos());
     1.00011 + 0.034_221 * cos + 0.00128 * sin + 0.000_719 * cos_twice + 0.000_077 * sin_twice
 }
 
-/// The state of a Perez sky.
+/// State of a Perez all-weather sky: clearness, brightness and the coefficients that follow from them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PerezState {
-    /// Clearness ε, 1 … 12.009.
+    /// Clearness ε of the sky, 1 … 12.009.
     pub clearness: f64,
-    /// Brightness Δ of the efficacy, 0.01 … 0.6; the luminance raises it to 0.2 for 1.065 < ε < 2.8.
+    /// Brightness Δ of the sky, 0.01 … 0.6, as used for the efficacies; for the luminance it is at least 0.2 if 1.065 <
+    /// ε < 2.8.
     pub brightness: f64,
-    /// Coefficients a, b, c, d, e of the relative luminance.
+    /// Coefficients a, b, c, d, e of the relative luminance distribution.
     pub coefficients: [f64; 5],
     /// Zenith angle of the sun. \[rad\]
     zenith: f64,
     bin: usize,
-    /// Precipitable water. \[cm\]
+    /// Precipitable water in the atmosphere. \[cm\]
     water: f64,
 }
 
 impl PerezState {
-    /// Creates the state from the sun's altitude (above the horizon) \[rad\], direct normal and diffuse horizontal
-    /// irradiance \[W/m²\], and the day's [`eccentricity`], 1 where there is no date. `None` where the model has no
-    /// meaning: sun on or below the horizon, no diffuse light, negative or infinite input.
+    /// Creates the state from the sun's altitude above the horizon \[rad\], direct normal and diffuse horizontal
+    /// irradiance \[W/m²\], and the day's [`eccentricity`] (1 without a date), with an unknown water content of the
+    /// air. `None` if the model is not defined: sun on or below the horizon, no diffuse irradiance, negative or
+    /// infinite input.
     pub fn new(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, eccentricity: f64) -> Option<Self> {
         (altitude > 0.0 && diffuse_horizontal > 0.0)
             .then(|| Self::in_air(altitude, direct_normal, diffuse_horizontal, Air { eccentricity, ..Air::UNKNOWN }))
             .flatten()
     }
 
-    /// Creates the state of an hour of a year, with the distance of the sun and the water in the air. The sun may be on
-    /// the horizon (for twilight, when it is below); without diffuse light the clearness is at its upper border. `None`
-    /// for no light at all, and for negative or infinite input.
+    /// Creates the state for an hour of a weather year from the sun's altitude \[rad\], direct normal and diffuse
+    /// horizontal irradiance \[W/m²\], and the air. An altitude of 0 is allowed (for twilight, when the sun is below
+    /// the horizon); without diffuse irradiance the clearness has its upper limit. `None` if both irradiances are 0,
+    /// and for negative or infinite input.
     pub fn in_air(altitude: f64, direct_normal: f64, diffuse_horizontal: f64, air: Air) -> Option<Self> {
         let valid = (0.0..=FRAC_PI_2 + 1e-12).contains(&altitude)
             && direct_normal >= 0.0
@@ -168,21 +178,21 @@ impl PerezState {
         Some(Self { clearness, brightness, coefficients, zenith, bin, water: air.water })
     }
 
-    /// Returns the luminous efficacy of the diffuse light. [lm/W]
+    /// Returns the luminous efficacy of diffuse light from the sky. \[lm/W\]
     pub fn diffuse_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIFFUSE_EFFICACY[self.bin];
         (a + b * self.water + c * self.zenith.cos() + d * self.brightness.ln()).max(0.0)
     }
 
-    /// Returns the luminous efficacy of the beam. [lm/W]
+    /// Returns the luminous efficacy of direct sun. \[lm/W\]
     pub fn direct_efficacy(&self) -> f64 {
         let [a, b, c, d] = DIRECT_EFFICACY[self.bin];
         (a + b * self.water + c * (5.73 * self.zenith - 5.0).exp() + d * self.brightness).max(0.0)
     }
 }
 
-/// Returns the coefficients x = x₁ + x₂Z + Δ(x₃ + x₄Z); in the first bin c and d have forms of their own (Perez 1993 eq
-/// 7, 8).
+/// Returns the coefficients a, b, c, d, e of the relative luminance, each x = x₁ + x₂Z + Δ(x₃ + x₄Z); in the first bin
+/// c and d have different formulas (Perez 1993 eq 7, 8).
 fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f64) -> [f64; 5] {
     let delta = if clearness > 1.065 && clearness < 2.8 { brightness.max(0.2) } else { brightness };
     let rows = LUMINANCE[bin];
@@ -193,8 +203,8 @@ fn luminance_coefficients(bin: usize, clearness: f64, brightness: f64, zenith: f
         x[2] = (delta * (c1 + c2 * zenith)).powf(c3).exp() - c4;
         x[3] = -(delta * (d1 + d2 * zenith)).exp() + d3 + delta * d4;
     }
-    // With a and b above 0 the luminance grows without bound towards the horizon, which no sky does: a uniform
-    // gradation is the nearest that the model has. Met with a high sun under a wrong clock.
+    // With a and b above 0 the luminance would grow without bound towards the horizon; b is limited to 0, a uniform
+    // gradation. This occurs with a high sun in weather data with a wrong time stamp.
     if x[0] > 0.0 {
         x[1] = x[1].min(0.0);
     }

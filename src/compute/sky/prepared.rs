@@ -1,11 +1,11 @@
-//! Obstructions and ground prepared for many skies and suns: daylight coefficients of their surfaces.
+//! Obstructions and ground prepared for many skies and positions of the sun: daylight coefficients of their surfaces.
 //!
-//! A moment is a list of luminances: the sky in the directions of a grid, the sun's addition to the cells of the
-//! surfaces, and the other luminance of the surfaces at the nodes of their panels. The last follows from the others by
-//! a matrix, found once: light is reflected between few panels of all surfaces until nothing is left, and the panels in
-//! view gather it. The luminance from a point in a direction is then a sum over the list with weights that do not
-//! depend on sky and sun. Panels suit a uniform sky with a sun in front of the façade; their error under other skies is
-//! part of the stated one.
+//! A *moment* (date and time with its sky and sun) is a list of luminances: of the sky in the directions of a grid, of
+//! the part directly reflected from the sun in the cells of the surfaces, and of the other part at the nodes of the
+//! surfaces' panels. The last follows from the others by a matrix, computed once from the interreflection between few
+//! panels of all surfaces. The luminance seen from a point in a direction is then a sum over the list with weights that
+//! do not depend on sky and sun. The panels are fitted to a uniform sky with a sun in front of the façade; their error
+//! under other skies is part of the stated one.
 
 use super::dome::Dome;
 use super::equations::{Counts, Exchange, Panels, SparseSum, sparse};
@@ -32,46 +32,48 @@ use std::f64::consts::PI;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Resolution of the sources that light surfaces: spacing of the sky directions \[rad\]; side of the sunlit cells
-/// relative to their distance, and minimum side \[m\]. Chosen: cost; held by the test
-/// `boxes_are_lit_as_at_single_moments`.
+/// Resolution of the sky and of sunlit cells as sources of illuminance on surfaces: spacing of the sky directions
+/// \[rad\]; maximum side of the cells relative to their distance, and minimum side \[m\]. Chosen: cost; held by the
+/// test `boxes_are_lit_as_at_single_moments`.
 const LIGHTING: [f64; 3] = [0.1, 0.4, 0.4];
-/// Resolution of the sources in view, in the form of [`LIGHTING`]. Chosen: cost; held by the test
-/// `boxes_are_lit_as_at_single_moments`.
+/// Resolution of the sky and of sunlit cells as seen from apertures: the three values of [`LIGHTING`]. Chosen: cost;
+/// held by the test `boxes_are_lit_as_at_single_moments`.
 const SEEN: [f64; 3] = [0.05, 0.15, 0.1];
-/// Moment that the panels are made for: reflectance of the ground; upward and sideward parts of the direction to the
-/// sun per part along the façade's normal; direct normal illuminance per horizontal illuminance of the sky. Chosen; the
-/// error under other skies and suns is [`OTHERS`], held by the test `boxes_are_lit_as_at_single_moments`.
+/// Moment to which the panels are fitted: reflectance of the ground; upward and sideward components of the direction to
+/// the sun per component along the façade's normal; direct normal illuminance per diffuse horizontal illuminance.
+/// Chosen; the error under other skies and suns is [`OTHERS`], held by the test `boxes_are_lit_as_at_single_moments`.
 const TRIAL: [f64; 4] = [0.2, 0.8, 0.3, 3.0];
 /// Fineness of the prepared panels. Between nodes it is that of a moment at the default error target, 0.2 · 0.01; the
 /// number of panels is chosen: cost; held by the test `boxes_are_lit_as_at_single_moments`.
 const PANELS: Fineness = Fineness { between: 2e-3, most: 160 };
-/// Length along a bearing for a further point on a surface when the light of a node is collected: cells are small.
+/// Angle along a bearing per additional point on a surface in the illuminance of a node; small because cells are small.
 /// \[rad\] Chosen; held by the test `boxes_are_lit_as_at_single_moments`.
 const STEP: f64 = 0.12;
-/// Error of panels and cells under other skies and suns, relative to the luminance of a surface without the sun's own:
-/// twice the mean error in the test of this file.
+/// Error by panels and cells under other skies and suns, relative to the luminance of a surface without the part
+/// directly reflected from the sun: twice the mean error in the test of this file.
 const OTHERS: f64 = 1e-2;
-/// Numbers of directions of one point for all patches together, and minimum and maximum for a patch: where the first
-/// directions of a patch meet one surface, and where they meet several. Each point has its own directions: between
-/// points that represent each other errors cancel. Chosen: cost; held by the test `boxes_are_lit_as_at_single_moments`,
-/// to 1.6 % of the light in the sum over patches.
+/// Numbers of directions at one point for all patches together, and minimum and maximum for a patch: first for patches
+/// whose first directions meet one surface only, then for those with several. Directions differ from point to point, so
+/// that errors of neighbouring points cancel. Chosen: cost; held by the test `boxes_are_lit_as_at_single_moments`, to
+/// 1.6 % of the light in the sum over patches.
 const DIRECTIONS: [(usize, [usize; 2]); 2] = [(8_000, [8, 64]), (40_000, [64, 256])];
-/// Maximum number of reflectances of the ground for which light is kept: a year has twelve. Chosen: cost only, no
-/// effect on results.
+/// Maximum number of ground reflectances for which the interreflection is cached: a year has twelve. Chosen: cost only,
+/// no effect on results.
 const GROUNDS: usize = 13;
-/// Number of the sky among the surfaces, larger than any surface has; the number before it is the skyline's.
+/// Index that stands for the sky among the surfaces, larger than that of any surface; the index before it stands for
+/// the skyline.
 const SKY: usize = usize::MAX;
 
-/// Boxes, building and ground ready for any sky behind the same skyline, any sun and any reflectance of the ground.
+/// Obstructions (boxes, building) and ground with daylight coefficients, for any sky and sun behind the same skyline
+/// and any ground reflectance.
 pub struct Prepared {
-    /// Number that no other prepared obstructions have.
+    /// Unique number of these prepared obstructions.
     number: u64,
     setting: Setting,
     turn: [f64; 2],
     viewpoints: Vec<DVec3>,
     wanted: Vec<usize>,
-    /// Boxes; `stated` holds the given luminance of every surface \[cd/m²\], `ground` the ground.
+    /// Boxes; `stated` holds the given luminance \[cd/m²\] of every surface that has one, `ground` the ground.
     boxes: Vec<Solid>,
     stated: Vec<Option<f64>>,
     ground: (Face, OpenGround),
@@ -80,25 +82,25 @@ pub struct Prepared {
     flat: f64,
     lighting: Sources,
     seen: Sources,
-    /// Exchange of light between few panels of all surfaces.
+    /// Interreflection between few panels of all surfaces.
     exchange: Exchange,
     lit: Lit,
-    /// Panels of the surfaces in view; `source` holds for every node the one whose luminance it takes, `gathered` the
-    /// light on them.
+    /// Panels of the surfaces in view; `source` holds for every node the one whose luminance it is given, `gathered`
+    /// the illuminances of the nodes by source.
     panels: Panels,
     source: Vec<usize>,
     gathered: Lit,
-    /// Weights of the nodes of `exchange` at the nodes of `panels`. \[sr\]
+    /// Weights of the nodes of `exchange` in the illuminance of the nodes of `panels`. \[sr\]
     from_exchange: Mat<f32>,
-    /// Luminance of the nodes by source, with the bits of the ground's reflectance as key.
+    /// Cached luminances of the nodes per luminance of each source, with the bits of the ground's reflectance as key.
     solved: Mutex<Vec<(u64, Arc<Mat<f32>>)>>,
 }
 
-/// Illuminance of nodes: rows of nodes, columns of the sources that light them.
+/// Illuminances of nodes per luminance of the sources: a row for each node, a column for each source. \[sr\]
 type Lit = Mat<f32>;
 
-/// Numbering of the luminances in a list: directions of the sky, the skyline, stated luminances (as 1), open ground
-/// beyond the panels, the sun's addition to cells.
+/// Numbering of the luminances (sources) in a list: directions of the sky, skyline, surfaces of given luminance (as 1),
+/// unobstructed ground outside the panels, cells lit by the sun.
 struct Sources {
     dome: Dome,
     cells: SunCells,
@@ -125,7 +127,7 @@ impl Sources {
         self.first_cell() + self.cells.len()
     }
 
-    /// Returns the luminances of a moment. \[cd/m²\]
+    /// Returns the luminances of all sources under the sky of `outside` and the sun of `scenery`. \[cd/m²\]
     fn luminances(&self, outside: &Outside, scenery: &Scenery<'_>) -> Vec<f32> {
         let skyline = scenery.skyline.map_or(outside.skyline_luminance(), |skyline| skyline.luminance);
         let even = [skyline, 1.0, outside.ground_luminance()];
@@ -134,12 +136,12 @@ impl Sources {
     }
 }
 
-/// Collector of the weights of all light on a node.
+/// Collector of the weights of all luminances in the illuminance of one node. \[sr\]
 struct Gathering<'a> {
     sources: &'a Sources,
     ground: (usize, &'a OpenGround),
     exchange: &'a Panels,
-    /// Weights by source; `by_other` holds those by other node.
+    /// Weights of the sources; `by_other` holds those of the other nodes.
     row: Vec<f64>,
     by_other: Vec<f64>,
 }
@@ -177,7 +179,7 @@ fn skyline(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
 }
 
-/// Returns sky and sun of the moment that panels are made for.
+/// Returns sky and sun of the moment to which panels are fitted.
 fn trial(outside: &Outside, [cos, sin]: [f64; 2]) -> (Outside, Sun) {
     let [reflectance, rise, aside, normal] = TRIAL;
     let [right, before] = [DVec3::new(cos, sin, 0.0), DVec3::new(sin, -cos, 0.0)];
@@ -190,9 +192,10 @@ fn trial(outside: &Outside, [cos, sin]: [f64; 2]) -> (Outside, Sun) {
 }
 
 impl Prepared {
-    /// Prepares `setting`, everything in the world's axes. `outside`: only the shape of its skyline counts, and the
-    /// reflectance of its ground, for which light is exchanged at once. `turn`: cosine and sine of the rotation of the
-    /// room's x axis. `viewpoints`: corners of the apertures. \[m\]
+    /// Prepares obstructions and computes their daylight coefficients. `outside`: gives the shape of the skyline, and
+    /// the ground reflectance for which the interreflection is computed in advance; `setting`: boxes, building and
+    /// ground, in the world's axes; `turn`: cosine and sine of the angle from east to the room's x axis; `viewpoints`:
+    /// corners of the apertures in the world's axes \[m\].
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -214,7 +217,7 @@ impl Prepared {
         beside(&tried, &viewpoints).into_iter().for_each(|index| all[index] = seen[index].clone());
         let unseen = |index: &usize| tried.surfaces[*index].reflects() && !wanted.contains(index);
         (0..seen.len()).filter(unseen).for_each(|index| seen[index] = FaceLight::even(0.0));
-        // Without a sun every part of a surface is collected, whether it will be sunlit or not.
+        // Without a sun, all parts of a surface are included, whether they will be sunlit or not.
         let scenery = scenery(&sky, skyline, None, &setting, turn);
         let (panels, all) = (Panels::new(seen), Panels::new(all));
         let sources = |[spacing, side, least]: [f64; 3], wanted: Option<&[usize]>| {
@@ -277,35 +280,36 @@ impl Prepared {
         Ok(prepared)
     }
 
-    /// Returns a number that no other prepared obstructions have.
+    /// Returns the unique number of these prepared obstructions, for caches.
     pub const fn number(&self) -> u64 {
         self.number
     }
 
-    /// Returns the boxes, without building and ground.
+    /// Returns the boxes of the obstructions, without building and ground.
     pub fn boxes(&self) -> &[Solid] {
         &self.boxes
     }
 
-    /// Returns the number of luminances of a moment.
+    /// Returns the number of luminances in the list of a moment ([`Self::luminances`]).
     pub const fn count(&self) -> usize {
         self.seen.len() + self.source.len()
     }
 
-    /// Solves the exchange of light for the ground of `outside`, which many hours then share.
+    /// Computes and caches the interreflection for the ground reflectance of `outside`, which many hours share.
     pub fn prepare_ground(&self, outside: &Outside) {
         self.solved(&self.scenery(outside, None));
     }
 
-    /// Returns the luminance of the nodes by source, for the ground of a scenery.
+    /// Returns the luminances of the nodes in view per luminance of each source, for the ground reflectance of a
+    /// scenery; computes them if they are not cached.
     fn solved(&self, scenery: &Scenery<'_>) -> Arc<Mat<f32>> {
         let key = scenery.surfaces[scenery.ground()].reflectance.to_bits();
-        // What is kept is whole even if another thread has failed while it held the lock.
+        // The cache is valid even if another thread panicked while it held the lock.
         let kept = || self.solved.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, found)) = kept().iter().find(|(known, _)| *known == key) {
             return Arc::clone(found);
         }
-        // Not under the lock: threads that do parts of this must not wait for it.
+        // Computed without holding the lock, because threads that compute parts of this must not wait for it.
         let albedo = |node: usize| (scenery.surfaces[self.panels.places[node].0].reflectance / PI) as f32;
         let gathered = |first: usize, all: Mat<f32>| {
             let mut light = self.gathered.subcols(first, all.ncols()).to_owned();
@@ -329,7 +333,8 @@ impl Prepared {
         seen
     }
 
-    /// Computes the luminance of the nodes in view, without the sun's own, in moments with the same ground. \[cd/m²\]
+    /// Computes the luminances of the nodes in view, without the part directly reflected from the sun, for moments with
+    /// the same ground reflectance. \[cd/m²\]
     fn exchanged(&self, moments: &[(&Outside, &Scenery<'_>)]) -> Vec<Vec<f32>> {
         let Some((_, scenery)) = moments.first() else { return Vec::new() };
         let sent: Vec<f32> =
@@ -345,7 +350,8 @@ impl Prepared {
         scenery(outside, skyline, direct_sun(outside, skyline, sun), &self.setting, self.turn)
     }
 
-    /// Returns the luminances of moments, [`Self::count`] of each: of the sky, of sunlit cells, of surfaces. \[cd/m²\]
+    /// Returns the luminances of moments, each given by its sky and sun: for each a list of [`Self::count`] values, of
+    /// the sky, of sunlit cells and of surfaces. \[cd/m²\]
     pub fn luminances(&self, moments: &[(&Outside, Option<&Sun>)]) -> Vec<Vec<f32>> {
         let sceneries: Vec<Scenery<'_>> = moments.iter().map(|(outside, sun)| self.scenery(outside, *sun)).collect();
         let moments: Vec<_> = moments.iter().map(|(outside, _)| *outside).zip(&sceneries).collect();
@@ -359,8 +365,9 @@ impl Prepared {
         moments.iter().zip(surfaces).map(whole).collect()
     }
 
-    /// Calls `add` with the indices of the luminances that are seen from a point in a direction, and the weight of
-    /// each; returns a number of the surface that is seen.
+    /// Calls `add` with the indices in the list of a moment and the weights of the luminances that make up the
+    /// luminance seen from the point `eye` in the direction `towards` (world's axes, \[m\]). Returns an index of the
+    /// surface seen, to compare it with that of other directions.
     pub fn look(&self, eye: DVec3, towards: DVec3, mut add: impl FnMut(usize, f64)) -> usize {
         let sources = &self.seen;
         let hit = first_hit(self.boxes.iter().enumerate(), eye, towards);
@@ -399,8 +406,8 @@ impl Prepared {
         surface
     }
 
-    /// Returns the weights of the luminances of a moment in the illuminance of the plane of `frame` at a point, for
-    /// every patch of a division of its hemisphere. \[sr\]
+    /// Returns the weights of a moment's luminances in the illuminance of the plane of `frame` at the point `eye`,
+    /// separately for every patch of `basis`. \[sr\] `eye`: in the world's axes \[m\].
     pub fn patches(&self, eye: DVec3, frame: &Frame, basis: &RingBasis) -> Vec<Counts> {
         let [few, many] =
             DIRECTIONS.map(|(all, [least, most])| (all / basis.len()).next_power_of_two().clamp(least, most));
@@ -429,7 +436,8 @@ impl Prepared {
         (0..basis.len()).map(of).collect()
     }
 
-    /// Returns `outside`, which has the same skyline, behind boxes and ground as sky and sun light them.
+    /// Returns `outside` with these obstructions and the ground in front of it, with their luminances under its sky and
+    /// the sun. `outside` must have the skyline for which the obstructions were prepared.
     pub fn under(&self, outside: &Outside, sun: Option<&Sun>) -> Outside {
         let skyline = skyline(outside);
         let direct_sun = direct_sun(outside, skyline, sun);

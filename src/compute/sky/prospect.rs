@@ -1,9 +1,9 @@
-//! View from a point past the obstructions around it.
+//! View from a point on sky and ground past obstructions, for integrals of the luminance.
 //!
 //! Along a meridian of any frame (a half plane through its pole) every straight edge is met at most once, at a polar
-//! angle in closed form. Between the edges and the horizon one thing alone is seen, so that one ray identifies it, and
-//! its light is smooth there. A skyline, and the steps of a measured sky, have such angles only along the meridians of
-//! the dome: regions of other frames are swept by the bearing then (`on_dome`).
+//! angle in closed form. Between these angles and the horizon a single surface, sky or ground is visible, so that one
+//! ray identifies it, and its luminance is smooth there. A skyline, and the steps of a measured sky, have such angles
+//! only along the meridians of the dome: regions of other frames are swept by the bearing then (`on_dome`).
 
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
@@ -14,54 +14,55 @@ use crate::compute::sweep::{rule, rule_over, sweep};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// The outside as seen from one point.
+/// View of sky, ground and obstructions from one point.
 pub(super) struct Prospect<'a> {
-    /// Sky, ground and flat skyline, without surroundings.
+    /// Sky, ground and uniform skyline, without obstructions.
     pub open: &'a Outside,
     pub surroundings: &'a Surroundings,
-    /// Point that the outside is seen from; without one only the skyline counts.
+    /// Point from which the outside is seen, world frame \[m\]; with `None` only the skyline counts.
     eye: Option<DVec3>,
     edges: Vec<Edge>,
-    /// Cap that holds all that is seen of every box.
+    /// Spherical cap of directions that contains each box.
     bounds: Vec<Cap>,
-    /// Normals of planes through the point between which every box is seen; none where it may be seen anywhere.
+    /// Normals of planes through the point that bound each box as seen from there; empty where the box may lie in any
+    /// direction.
     cones: Vec<Vec<DVec3>>,
-    /// Direction in which the sky's luminance peaks.
+    /// Direction of the peak of the sky's luminance (of the sun).
     pub peak: Option<DVec3>,
 }
 
-/// An edge as vectors from the viewpoint.
+/// Straight edge of an obstruction, its ends as vectors from the viewpoint. \[m\]
 struct Edge {
     ends: [DVec3; 2],
     bound: Cap,
 }
 
-/// Part of the surroundings that may be seen in a part of the sphere.
+/// Obstructions that may be visible in a part of the sphere.
 #[derive(Default)]
 pub(super) struct Near {
-    /// Edges as vectors from the viewpoint. \[m\]
+    /// Ends of the edges as vectors from the viewpoint. \[m\]
     pub edges: Vec<[DVec3; 2]>,
     /// Indices of the boxes.
     solids: Vec<usize>,
 }
 
-/// A meridian and the boxes that it passes.
+/// Meridian of a frame with the boxes that it crosses.
 pub(super) struct Along {
     pub meridian: Meridian,
-    /// Index of every box, and cotangents of the polar angles between which it may be met.
+    /// Index of every box, and the cotangents of the polar angles between which it may be met.
     passed: Vec<(usize, [f64; 2])>,
 }
 
-/// Integrals of luminance times weight over parts of a region.
+/// Integrals of luminance times weight over a region, separately for obstructions and for what they hide.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Parts {
-    /// Integral over the surroundings in front of sky and ground.
+    /// Integral of the luminance of the obstructions.
     pub before: f64,
-    /// Uncertainty of that integral due to the light on faces.
+    /// Uncertainty of `before` by the luminances of the faces.
     pub uncertainty: f64,
-    /// Integral over sky and ground where the surroundings hide them.
+    /// Integral of the luminance of sky and ground where obstructions hide them.
     pub behind: f64,
-    /// Integral over sky and ground of the whole region, by the same points.
+    /// Integral of the luminance of sky and ground over the whole region, from the same points.
     pub open: f64,
 }
 
@@ -72,7 +73,7 @@ impl Parts {
 }
 
 impl<'a> Prospect<'a> {
-    /// Creates the view past lit boxes.
+    /// Creates the view from the point `eye` past obstructions with known luminances.
     pub fn new(open: &'a Outside, surroundings: &'a Surroundings, eye: Option<DVec3>) -> Self {
         let edges = eye.map_or_else(Vec::new, |eye| surroundings.edges_from(eye)).into_iter().map(|ends| {
             let [a, b] = ends.map(DVec3::normalize_or_zero);
@@ -88,7 +89,7 @@ impl<'a> Prospect<'a> {
         Self { open, surroundings, eye, edges, bounds, cones, peak }
     }
 
-    /// Returns the part of the surroundings that may be seen in a part of the sphere; `None` where there is none.
+    /// Returns the obstructions that may be visible in a part of the sphere; `None` if there are none.
     pub fn near(&self, part: &Cap) -> Option<Near> {
         let rises = self.surroundings.skyline.as_ref().is_some_and(|skyline| {
             let altitude = part.middle.z.clamp(-1.0, 1.0).asin();
@@ -105,7 +106,7 @@ impl<'a> Prospect<'a> {
         Some(Near { edges, solids })
     }
 
-    /// Returns a meridian with the boxes that it passes.
+    /// Returns a meridian with the boxes that it crosses.
     pub fn along(&self, near: &Near, meridian: Meridian) -> Along {
         let passed = near.solids.iter().filter_map(|&solid| {
             let mut between = [f64::NEG_INFINITY, f64::INFINITY];
@@ -126,8 +127,8 @@ impl<'a> Prospect<'a> {
         Along { meridian, passed: passed.collect() }
     }
 
-    /// Returns the surroundings met in a direction of a meridian, for evaluation in directions that meet nothing else;
-    /// `None`: sky or ground.
+    /// Returns the surface of an obstruction that is visible in a direction of a meridian, for evaluation in
+    /// neighbouring directions that meet the same surface; `None` for sky or unobstructed ground.
     pub fn met(&self, Along { meridian, passed }: &Along, direction: DVec3) -> Option<Shown<'_>> {
         let at = direction.dot(meridian.pole) / direction.dot(meridian.along);
         let solids = passed.iter().filter(|(_, [low, high])| at > *low && at < *high).map(|(solid, _)| *solid);
@@ -135,13 +136,13 @@ impl<'a> Prospect<'a> {
         Some(self.surroundings.shown(met, self.eye))
     }
 
-    /// Returns the luminance of sky and ground. \[cd/m²\]
+    /// Returns the luminance of sky or ground in a direction, without obstructions. \[cd/m²\]
     pub fn open_luminance(&self, direction: DVec3) -> f64 {
         self.open.luminance(crate::compute::direction::Dir::from_unit(direction))
     }
 
-    /// Writes the polar angles within a range at which a meridian meets an edge or the horizon, the flat skyline's too;
-    /// rising, with the ends.
+    /// Writes the polar angles within a range at which a meridian meets an edge, the horizon or the uniform skyline
+    /// into `out`; rising, with the ends of the range.
     fn breaks(&self, frame: &Frame, phi: f64, range: (f64, f64), edges: &[[DVec3; 2]], out: &mut Vec<f64>) {
         out.clear();
         out.push(range.0);
@@ -178,7 +179,7 @@ impl<'a> Prospect<'a> {
     }
 
     /// Writes the zenith angles at which the meridian of a bearing meets edges, the horizon, skylines, the rows of a
-    /// measured sky and the altitude of the sky's peak, with those of `more`; rising from 0 to π.
+    /// measured sky and the altitude of the sky's peak into `out`, with those of `more`; rising from 0 to π.
     pub fn breaks_at_bearing(&self, bearing: f64, edges: &[[DVec3; 2]], more: &[f64], out: &mut Vec<f64>) {
         self.breaks(&Frame::DOME, bearing, (0.0, PI), edges, out);
         out.extend(self.surroundings.skyline.iter().map(|skyline| FRAC_PI_2 - skyline.altitude(bearing)));
@@ -190,9 +191,9 @@ impl<'a> Prospect<'a> {
         out.sort_unstable_by(f64::total_cmp);
     }
 
-    /// Returns a frame whose pole lies in a plane: of the axes of the plane's `frame` the one about which edges in
-    /// front of the plane span the smallest sum of angles. Its meridians run along most edges and meet few; those in
-    /// front of the plane are φ in 0 … π.
+    /// Returns a frame whose pole lies in the plane of `frame`: the axis of the plane about which edges in front of it
+    /// span the smallest sum of angles. Its meridians run along most edges and cross few; those in front of the plane
+    /// have φ from 0 to π.
     pub fn frame_along_edges(&self, frame: &Frame) -> Frame {
         let axes = [
             Frame { x: frame.y, y: frame.z, z: frame.x },
@@ -209,12 +210,13 @@ impl<'a> Prospect<'a> {
         axes[usize::from(turns[1] < turns[0])]
     }
 
-    /// Whether the view has borders that are simple along bearings alone.
+    /// Whether the view has borders that are simple only along bearings: a skyline by bearing, or a measured sky.
     pub fn is_of_the_dome(&self) -> bool {
         self.surroundings.skyline.is_some() || self.open.is_piecewise_constant()
     }
 
-    /// Integrates along one meridian of a region, all as densities of azimuth; the first number is what steers a sweep.
+    /// Returns the integrals along one meridian of a region, per azimuth angle: first the change by the obstructions,
+    /// which controls a sweep, then the four values of [`Parts`].
     fn line(
         &self,
         region: &Region,
@@ -239,7 +241,8 @@ impl<'a> Prospect<'a> {
         sum
     }
 
-    /// Adds the light between two angles along a meridian, between which one thing alone is seen.
+    /// Adds the integrals between two angles along a meridian, between which a single surface, sky or ground is
+    /// visible, to `sum`.
     pub fn add(&self, along: &Along, (from, to): (f64, f64), density: impl Fn(f64, DVec3) -> f64, sum: &mut [f64; 5]) {
         let width = to - from;
         let mut met = self.met(along, along.meridian.direction(from + 0.5 * width));
@@ -264,7 +267,7 @@ impl<'a> Prospect<'a> {
         }
     }
 
-    /// Returns the azimuths within a region at which the surroundings begin or end.
+    /// Returns the azimuths within a region at which obstructions begin or end.
     fn knots(&self, region: &Region, near: &Near) -> Vec<f64> {
         let mut inner = Vec::new();
         region.cut_knots(0.0, &mut inner);
@@ -274,7 +277,7 @@ impl<'a> Prospect<'a> {
                 region.push_azimuth(phi, &mut inner);
             }
         }
-        // Where an edge leaves the region over its inner or outer rim.
+        // Azimuths at which an edge crosses the limits of the region in θ.
         for &[a, b] in &near.edges {
             for theta in [region.theta.0, region.theta.1] {
                 for at in on_cone(a, b, region.frame.z, theta) {
@@ -285,13 +288,13 @@ impl<'a> Prospect<'a> {
         region.sorted(inner)
     }
 
-    /// Integrates over a region by meridians of its own frame, with the error of the cubature; `None` where no
-    /// surroundings hide sky and ground.
+    /// Computes the integrals over a region by a sweep over meridians of its frame, with the error of the cubature;
+    /// `None` if no obstruction hides sky or ground there.
     pub fn over(&self, region: &Region, weight: Weight, relative: f64, absolute: f64) -> Option<(Parts, f64)> {
         self.over_by(region, &|theta, _| weight.density(theta), relative, absolute)
     }
 
-    /// Computes [`Self::over`] for any density per θ and φ at a θ and a direction.
+    /// Computes the integrals of [`Self::over`] for any weight `density`, a function of θ and direction, per θ and φ.
     pub fn over_by(
         &self,
         region: &Region,
@@ -322,15 +325,15 @@ impl<'a> Prospect<'a> {
     }
 }
 
-/// Width above which regions are integrated adaptively. \[rad\] Chosen: cost; of the patches of the full Klems basis
-/// only those at grazing incidence are wider. Results change within [`SMALL_ERROR`].
+/// Angular width above which regions are integrated adaptively. \[rad\] Chosen: cost; of the patches of the full Klems
+/// basis only those at grazing incidence are wider. Results change within [`SMALL_ERROR`].
 const LARGE: f64 = 0.5;
-/// Error of fixed points in smaller regions, relative to the change by the surroundings. Chosen: twice the accuracy of
-/// adaptive cells, `PAST` of `incident`; part of the errors that
+/// Error by the fixed points in smaller regions, relative to the change by the obstructions. Chosen: twice the accuracy
+/// of adaptive cells, `PAST` of `incident`; part of the errors that
 /// `tests/scenes/year_moments.rs::light_behind_boxes_is_that_of_the_moment` compares.
 const SMALL_ERROR: f64 = 1e-3;
 
-/// Returns the cap that holds all that is seen of a box from a point.
+/// Returns the spherical cap of directions that contains a box as seen from a point.
 fn bound(solid: &Solid, eye: DVec3) -> Cap {
     let to = solid.middle() - eye;
     let (distance, radius) = (to.length(), solid.radius());
@@ -340,7 +343,7 @@ fn bound(solid: &Solid, eye: DVec3) -> Cap {
     Cap { middle: to / distance, reach: (radius / distance).asin() }
 }
 
-/// Returns the points of a segment at which the angle to an axis has a value: (p·z)² = cos²θ |p|².
+/// Returns the points p of the segment from `a` to `b` whose angle to an axis z is `theta`: (p·z)² = cos²θ |p|².
 pub(super) fn on_cone(a: DVec3, b: DVec3, axis: DVec3, theta: f64) -> impl Iterator<Item = DVec3> {
     let (d, cosine) = (b - a, theta.cos());
     let square = cosine * cosine;

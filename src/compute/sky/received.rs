@@ -1,4 +1,5 @@
-//! Views of places on surfaces: collected once, and evaluated again as the light of surfaces changes.
+//! Views from points on surfaces, collected once, from which the illuminance is computed for changing luminances of the
+//! surfaces in view.
 
 use super::equations::{Counts, Panels, SparseSum};
 use super::open_ground::OpenGround;
@@ -8,22 +9,23 @@ use crate::compute::surroundings::face_light::FaceLight;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of parts that are kept: 64 MB. Chosen: cost only, no effect on results.
+/// Maximum number of cached parts of surfaces: 64 MB. Chosen: cost only, no effect on results.
 const KEPT: usize = 4_000_000;
 
-/// Part of a surface in a view: surface, coordinates there \[m\], projected solid angle \[sr\].
+/// Part of a surface in a view: index of the surface, coordinates there \[m\], projected solid angle \[sr\].
 type Part = (u32, [f32; 2], f32);
 
-/// Light that a place receives: a fixed part, and the parts of surfaces in view.
+/// Illuminance of a point on a surface: a fixed part, and the parts of surfaces in view whose luminance may change.
 pub(super) struct Received {
-    /// Illuminance by sky, skyline, stated luminances, the sun's own light on surfaces, and open ground. \[lx\]
+    /// Illuminance by sky, skyline, surfaces of given luminance, sunlight directly reflected by surfaces, and
+    /// unobstructed ground. \[lx\]
     rest: f64,
-    /// Parts of surfaces whose smooth light counts in addition.
+    /// Parts of surfaces whose smooth luminance contributes in addition.
     parts: Vec<Part>,
 }
 
 impl Received {
-    /// Returns the illuminance of the place under smooth light of all surfaces. \[lx\]
+    /// Returns the illuminance of the point for the smooth luminances `lights` of all surfaces. \[lx\]
     pub fn illuminance(&self, lights: &[FaceLight]) -> f64 {
         let part = |(surface, at, counts): &Part| {
             let [u, v] = at.map(f64::from);
@@ -32,8 +34,8 @@ impl Received {
         self.rest + self.parts.iter().map(part).sum::<f64>()
     }
 
-    /// Returns the illuminance by all but the nodes of panels \[lx\], and the weights of these \[sr\]. `others`: light
-    /// of surfaces without nodes of their own.
+    /// Returns the illuminance by everything except the nodes of panels \[lx\], and the weights of these nodes \[sr\].
+    /// `others`: luminances of the surfaces without nodes; `sum`: empty buffer.
     pub fn by_node(&self, panels: &Panels, others: &[Option<&FaceLight>], sum: &mut SparseSum) -> (f64, Counts) {
         let mut rest = self.rest;
         for (surface, at, counts) in &self.parts {
@@ -47,10 +49,10 @@ impl Received {
     }
 }
 
-/// Surface and coordinates of a place, as bits.
+/// Surface and coordinates of a point, as bits.
 type Key = (usize, [u64; 2]);
 
-/// Views of places, cached up to a limit.
+/// Views from points on surfaces, cached up to a limit.
 pub(super) struct Views<'a> {
     scenery: &'a Scenery<'a>,
     ground: &'a OpenGround,
@@ -58,15 +60,16 @@ pub(super) struct Views<'a> {
 }
 
 impl<'a> Views<'a> {
-    /// Creates an empty cache.
+    /// Creates an empty cache of views in a scenery.
     pub fn new(scenery: &'a Scenery<'a>, ground: &'a OpenGround) -> Self {
         Self { scenery, ground, kept: Mutex::default() }
     }
 
-    /// Returns the view of a place of a surface; `None` where a body covers it.
+    /// Returns the view from a point of a surface, given by its coordinates there \[m\]; `None` if a body covers the
+    /// point.
     pub fn of(&self, surface: usize, at: [f64; 2]) -> Option<Arc<Received>> {
         let key = (surface, at.map(f64::to_bits));
-        // What is kept is whole even if another thread has failed while it held the lock.
+        // The cache is valid even if another thread panicked while it held the lock.
         let kept = || self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = kept().0.get(&key) {
             return Some(Arc::clone(known));

@@ -1,13 +1,14 @@
 //! Regions of the sphere: rectangles in polar angle θ and azimuth φ of some frame.
 //!
-//! Along a line of constant φ the part above an altitude ≥ 0 is a single interval of θ in closed form, so horizon and
-//! skyline cut every region exactly.
+//! Along a line of constant φ the part above an altitude ≥ 0 is a single interval of θ in closed form, so that regions
+//! are divided exactly at the horizon and a uniform skyline.
 
 use crate::compute::direction::{Dir, Orientation, Surface, World};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Axes of a plane in the world: φ runs from `x` towards `y`, θ from `z`.
+/// Axes of a plane (an aperture, a receiver) as unit vectors in the world's axes: x and y in the plane, z its normal.
+/// The azimuth φ runs from x towards y, the polar angle θ from z.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     pub(super) x: DVec3,
@@ -16,24 +17,26 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Returns the frame of an aperture in a room.
+    /// Creates the axes of an aperture from the orientation of its room and the surface that it lies in: x to the right
+    /// seen from outside, y up, z outward normal.
     pub fn of_aperture(orientation: Orientation, surface: Surface) -> Self {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z]
             .map(|axis| orientation.world_from_room(Dir::from_unit(surface.room_from_facade(axis))).vector());
         Self { x, y, z }
     }
 
-    /// Returns the frame of a plane given by its normal alone; x is horizontal.
+    /// Creates the axes of a plane with this normal; x is horizontal.
     pub fn facing(normal: Dir<World>) -> Self {
         let z = normal.vector();
         let x = DVec3::Z.cross(z).try_normalize().unwrap_or(DVec3::X);
         Self { x, y: z.cross(x), z }
     }
 
-    /// Frame of bearings and zenith angles: φ is the compass bearing, θ = 90° − altitude.
+    /// Frame of compass bearings and zenith angles: φ is the bearing, θ = 90° − altitude.
     pub(super) const DOME: Self = Self { x: DVec3::Y, y: DVec3::X, z: DVec3::Z };
 
-    /// Returns the unit vector of a polar angle from the normal and an azimuth. \[rad\]
+    /// Returns the direction with the polar angle `theta` from the normal and the azimuth `phi` \[rad\], as a unit
+    /// vector in the world's axes.
     #[inline]
     pub fn direction(&self, theta: f64, phi: f64) -> DVec3 {
         let (sin_theta, cos_theta) = theta.sin_cos();
@@ -41,20 +44,20 @@ impl Frame {
         self.x * (sin_theta * cos_phi) + self.y * (sin_theta * sin_phi) + self.z * cos_theta
     }
 
-    /// Returns the meridian of an azimuth. \[rad\]
+    /// Returns the meridian (half plane through the pole) of an azimuth `phi`. \[rad\]
     pub(super) fn meridian(&self, phi: f64) -> Meridian {
         let (sin, cos) = phi.sin_cos();
         Meridian { along: self.x * cos + self.y * sin, pole: self.z }
     }
 
-    /// Returns (θ, φ) of a world direction. \[rad\]
+    /// Returns (θ, φ) in this frame of a direction in the world's axes. \[rad\]
     pub(super) fn angles(&self, v: DVec3) -> (f64, f64) {
         let (x, y, z) = (self.x.dot(v), self.y.dot(v), self.z.dot(v));
         (x.hypot(y).atan2(z), y.atan2(x))
     }
 }
 
-/// The directions of one azimuth of a frame.
+/// Meridian of a frame: all directions of one azimuth.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Meridian {
     /// Direction at a polar angle of 90°; `pole` is that at 0.
@@ -63,7 +66,8 @@ pub(super) struct Meridian {
 }
 
 impl Meridian {
-    /// Returns the unit vector of a polar angle like [`Frame::direction`], except for rounding, at less cost. \[rad\]
+    /// Returns the direction of the meridian with the polar angle `theta` \[rad\], as a unit vector in the world's
+    /// axes; cheaper than [`Frame::direction`].
     #[inline]
     pub fn direction(&self, theta: f64) -> DVec3 {
         let (sin, cos) = theta.sin_cos();
@@ -71,7 +75,7 @@ impl Meridian {
     }
 }
 
-/// Weight of a direction in an integral.
+/// Weight of a direction in an integral of the luminance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Weight {
     /// Projected solid angle, cosθ dω.
@@ -81,7 +85,7 @@ pub(super) enum Weight {
 }
 
 impl Weight {
-    /// Returns the weight per θ and φ.
+    /// Returns the weight per θ and φ at the polar angle `theta`.
     #[inline]
     pub(super) fn density(self, theta: f64) -> f64 {
         match self {
@@ -90,7 +94,7 @@ impl Weight {
         }
     }
 
-    /// Returns ∫ of the density from a to b.
+    /// Returns the integral of the density over θ from `a` to `b`. \[rad\]
     #[inline]
     pub(super) fn between(self, a: f64, b: f64) -> f64 {
         match self {
@@ -100,7 +104,7 @@ impl Weight {
     }
 }
 
-/// A part of the sphere: its middle, and its angular radius. \[rad\]
+/// Spherical cap: unit vector to its middle, and its angular radius. \[rad\]
 #[derive(Clone, Copy)]
 pub(super) struct Cap {
     pub middle: DVec3,
@@ -108,14 +112,14 @@ pub(super) struct Cap {
 }
 
 impl Cap {
-    /// Whether both may have a direction in common.
+    /// Whether both caps may have a direction in common.
     pub fn touches(&self, other: &Self) -> bool {
         let reach = self.reach + other.reach;
         reach >= PI || self.middle.dot(other.middle) > reach.cos()
     }
 }
 
-/// Rectangle θ₀ … θ₁ × φ₀ … φ₁ of a frame. \[rad\]
+/// Region of the sphere θ₀ … θ₁ × φ₀ … φ₁ in the angles of a frame. \[rad\]
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Region {
     pub frame: Frame,
@@ -124,7 +128,7 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// Returns a cap that holds the region.
+    /// Returns a spherical cap that contains the region.
     pub fn cap(&self) -> Cap {
         let (theta, phi) = (0.5 * (self.theta.0 + self.theta.1), 0.5 * (self.phi.0 + self.phi.1));
         let (high, wide) = (self.theta.1 - self.theta.0, self.phi.1 - self.phi.0);
@@ -132,7 +136,7 @@ impl Region {
         Cap { middle: self.frame.direction(theta, phi), reach }
     }
 
-    /// Whether the region holds a direction, to rounding.
+    /// Whether the region contains a direction, with a tolerance of `slack`. \[rad\]
     pub fn holds(&self, direction: DVec3, slack: f64) -> bool {
         let (theta, phi) = self.frame.angles(direction);
         let past = (phi - self.phi.0 + slack).rem_euclid(2.0 * PI);
@@ -146,8 +150,8 @@ impl Region {
         (self.frame.x.dot(n) * cos + self.frame.y.dot(n) * sin, self.frame.z.dot(n))
     }
 
-    /// Returns the interval of θ within the region on which a line of constant φ is at or above the altitude of sine
-    /// `level` ≥ 0.
+    /// Returns the interval of θ within the region on which a line of constant φ is at or above an altitude whose sine
+    /// is `level` ≥ 0; `None` if it is empty.
     #[inline]
     pub fn above(&self, phi: f64, level: f64) -> Option<(f64, f64)> {
         let (a, b) = self.along(DVec3::Z, phi);
@@ -162,7 +166,7 @@ impl Region {
         (high > low).then_some((low, high))
     }
 
-    /// Adds the azimuths within the region where the circle n·d = `level` crosses the polar angle θ.
+    /// Adds the azimuths within the region at which the circle n·d = `level` crosses the polar angle θ to `out`.
     pub fn crossings(&self, n: DVec3, level: f64, theta: f64, out: &mut Vec<f64>) {
         let (sin, cos) = theta.sin_cos();
         if sin < 1e-12 {
@@ -171,7 +175,7 @@ impl Region {
         self.azimuths(n, (level - self.frame.z.dot(n) * cos) / sin, out);
     }
 
-    /// Adds the azimuths within the region where the component A(φ) of n has a value.
+    /// Adds the azimuths within the region at which the component A(φ) of n has the value `value` to `out`.
     fn azimuths(&self, n: DVec3, value: f64, out: &mut Vec<f64>) {
         let (x, y) = (self.frame.x.dot(n), self.frame.y.dot(n));
         let rho = x.hypot(y);
@@ -184,7 +188,7 @@ impl Region {
         }
     }
 
-    /// Adds an azimuth, shifted by whole turns into the region's range, if it lies in it.
+    /// Adds an azimuth, shifted by full turns into the region's range, to `out` if it lies in the region.
     pub fn push_azimuth(&self, phi: f64, out: &mut Vec<f64>) {
         let turned = self.phi.0 + (phi - self.phi.0).rem_euclid(2.0 * PI);
         if turned < self.phi.1 {
@@ -192,7 +196,8 @@ impl Region {
         }
     }
 
-    /// Adds the azimuths at which the cut at an altitude of sine `level` meets the region's border or begins.
+    /// Adds the azimuths at which the circle of an altitude of sine `level` begins or meets the region's border to
+    /// `out`.
     pub fn cut_knots(&self, level: f64, out: &mut Vec<f64>) {
         for theta in [self.theta.0, self.theta.1] {
             self.crossings(DVec3::Z, level, theta, out);
@@ -205,7 +210,7 @@ impl Region {
         }
     }
 
-    /// Returns azimuths as a rising list from φ₀ to φ₁, without slivers.
+    /// Returns azimuths as a rising list from φ₀ to φ₁, without intervals below 1e-12.
     pub fn sorted(&self, mut inner: Vec<f64>) -> Vec<f64> {
         inner.sort_by(f64::total_cmp);
         let mut knots = vec![self.phi.0];

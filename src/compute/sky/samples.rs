@@ -1,8 +1,8 @@
-//! The sky in every cell of a division of an aperture's hemisphere, by directions that are fixed once: a new sky of a
-//! smooth model is then no more than its luminances in these directions, times weights.
+//! Illuminance of an aperture by the sky from every cell of a basis, by fixed directions and weights: for a new sky of
+//! a smooth model only its luminances in these directions are evaluated.
 //!
-//! The part of a cell above horizon or skyline is cut out exactly, as for [`super::incident_illuminances`]; in it stand
-//! Gauss points in azimuth and polar angle, their weights scaled to the part's own projected solid angle.
+//! The part of a cell above horizon or skyline is delimited exactly, like in [`super::incident_illuminances`]; it has
+//! Gauss points in azimuth and polar angle, their weights scaled to the projected solid angle of the part.
 
 use super::outside::Outside;
 use super::region::{Frame, Region, Weight};
@@ -12,7 +12,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-/// Directions and weights for the cells of one basis.
+/// Directions and weights \[sr\] for the illuminance of an aperture by the sky from every cell of one basis.
 #[derive(Debug, Clone)]
 pub struct SkySamples {
     cells: Vec<usize>,
@@ -22,8 +22,9 @@ pub struct SkySamples {
 }
 
 impl SkySamples {
-    /// Creates directions above a skyline's `altitude` \[rad\] (0: above the horizon), no further apart than about
-    /// `spacing` \[rad\], in all cells that reach above the horizon.
+    /// Creates the directions in all cells of `basis` that reach above the horizon. `frame`: axes of the aperture in
+    /// the world; `altitude`: of a uniform skyline, below which there are no directions \[rad\]; `spacing`: approximate
+    /// maximum distance of neighbouring directions \[rad\].
     pub fn new(basis: &RingBasis, frame: &Frame, altitude: f64, spacing: f64) -> Self {
         let mut samples = Self { cells: Vec::new(), first: vec![0], directions: Vec::new(), weights: Vec::new() };
         let rules: Vec<Vec<(f64, f64)>> = (0..=MOST_POINTS).map(gauss_legendre).collect();
@@ -31,7 +32,7 @@ impl SkySamples {
         for index in 0..basis.len() {
             let cell = basis.cell(index);
             let theta = (cell.theta_min, cell.theta_max);
-            // Cells wider than a quarter are cut: the rules are made for smooth pieces.
+            // Cells wider than a quarter turn are divided, because the quadrature rules are made for smooth pieces.
             let pieces = (cell.width / (0.5 * PI)).ceil().max(1.0) as usize;
             let step = cell.width / pieces as f64;
             let mut open = 0.0;
@@ -53,7 +54,7 @@ impl SkySamples {
         samples
     }
 
-    /// Adds the points of the part of a region above the altitude of sine `level`.
+    /// Adds directions and weights for the part of a region above the altitude of sine `level`.
     fn cut(&mut self, region: &Region, level: f64, rules: &[Vec<(f64, f64)>], points: impl Fn(f64) -> usize) {
         for (from, to) in strips(region, level) {
             let begin = self.weights.len();
@@ -82,8 +83,9 @@ impl SkySamples {
         }
     }
 
-    /// Removes hidden directions; `open`: projected solid angle that each of [`Self::cells`] keeps, to which the
-    /// weights of the remaining directions are scaled. \[sr\]
+    /// Removes the directions that obstructions hide. `hidden`: whether a direction (world's axes) is hidden; `open`:
+    /// projected solid angle of the visible sky in each of [`Self::cells`], to which the weights of the remaining
+    /// directions are scaled. \[sr\]
     pub fn without(&mut self, hidden: impl Fn(DVec3) -> bool, open: &[f64]) {
         let (mut first, mut directions, mut weights) = (vec![0], Vec::new(), Vec::new());
         for (pair, open) in self.first.windows(2).zip(open) {
@@ -94,7 +96,7 @@ impl SkySamples {
                     weights.push(self.weights[k]);
                 }
             }
-            // A cell of which only a corner shows, between the directions: all of them represent it.
+            // If the visible part of a cell lies between its directions, all of them represent it.
             if weights.len() == begin && *open > 0.0 {
                 directions.extend(&self.directions[pair[0]..pair[1]]);
                 weights.extend(&self.weights[pair[0]..pair[1]]);
@@ -108,17 +110,17 @@ impl SkySamples {
         (self.first, self.directions, self.weights) = (first, directions, weights);
     }
 
-    /// Returns the indices of the cells that reach above the horizon, rising.
+    /// Returns the indices in the basis of the cells that reach above the horizon, rising.
     pub fn cells(&self) -> &[usize] {
         &self.cells
     }
 
-    /// Returns the number of directions.
+    /// Returns the number of directions in all cells.
     pub fn len(&self) -> usize {
         self.directions.len()
     }
 
-    /// Returns a hash that only the same directions with the same weights have.
+    /// Returns a hash of all directions and weights, as a key for caches.
     pub fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         self.first.hash(&mut hasher);
@@ -128,13 +130,13 @@ impl SkySamples {
         hasher.finish()
     }
 
-    /// Whether there is no direction: the aperture sees no sky.
+    /// Whether there are no directions, because no sky is visible from the aperture.
     pub fn is_empty(&self) -> bool {
         self.directions.is_empty()
     }
 
-    /// Computes the illuminance through every one of [`Self::cells`] by the open sky alone, without ground and skyline.
-    /// \[lx\] The outside's skyline must be the one these samples were made for.
+    /// Computes the illuminance of the aperture from each of [`Self::cells`] by the sky alone, without ground and
+    /// skyline, into `out`. \[lx\] The skyline of `outside` must be the one for which the directions were created.
     pub fn illuminances(&self, outside: &Outside, out: &mut Vec<f64>) {
         out.clear();
         out.extend(self.first.windows(2).map(|pair| {
@@ -145,11 +147,12 @@ impl SkySamples {
     }
 }
 
-/// Maximum number of points along one side of a piece. Chosen: cost; held by the test
+/// Maximum number of points along one side of a piece of a cell. Chosen: cost; held by the test
 /// `a_uniform_sky_above_a_skyline_is_exact_and_a_clear_one_close`.
 const MOST_POINTS: usize = 8;
 
-/// Returns the intervals of azimuth on which the part above a level is bounded by smooth limits.
+/// Returns the intervals of azimuth within which the part of a region above the altitude of sine `level` has smooth
+/// limits.
 fn strips(region: &Region, level: f64) -> Vec<(f64, f64)> {
     let mut inner = Vec::new();
     region.cut_knots(level, &mut inner);
@@ -158,7 +161,7 @@ fn strips(region: &Region, level: f64) -> Vec<(f64, f64)> {
     knots.windows(2).filter(|pair| open(pair)).map(|pair| (pair[0], pair[1])).collect()
 }
 
-/// Returns the projected solid angle above a level. \[sr\]
+/// Returns the projected solid angle of the part of a region above the altitude of sine `level`. \[sr\]
 fn solid(region: &Region, level: f64, rules: &[Vec<(f64, f64)>]) -> f64 {
     let share = |(from, to): (f64, f64)| -> f64 {
         let at = |s: f64| region.above(from + (to - from) * s, level);

@@ -1,29 +1,31 @@
-//! Measured skies: 145 luminances on Tregenza's lattice over the horizontal plane, each constant over its band cell.
+//! Measured skies: luminances of Tregenza's 145 patches of the sky dome, each constant over its patch.
 
 use super::patches::{ROW_HEIGHT, ROWS};
 use crate::compute::angle::wrap_two_pi;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// 145 luminances: lowest row first, each row clockwise from north. \[cd/m²\]
+/// Measured sky: luminances of Tregenza's 145 patches of the sky dome, lowest row first, each row clockwise from north.
+/// \[cd/m²\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scan {
     values: [f64; 145],
 }
 
 impl Scan {
-    /// Creates the sky from exactly 145 values; `None` when their number differs, or one is negative or not finite.
+    /// Creates the sky from exactly 145 luminances \[cd/m²\]; `None` if their number differs, or if one is negative or
+    /// not finite.
     pub fn new(values: &[f64]) -> Option<Self> {
         let values: [f64; 145] = values.try_into().ok()?;
         values.iter().all(|value| value.is_finite() && *value >= 0.0).then_some(Self { values })
     }
 
-    /// Returns the 145 luminances. \[cd/m²\]
+    /// Returns the luminances of the 145 patches, lowest row first, each row clockwise from north. \[cd/m²\]
     pub const fn values(&self) -> &[f64; 145] {
         &self.values
     }
 
-    /// Returns the index of the cell that holds a direction above the horizon.
+    /// Returns the index of the patch that contains a direction above the horizon (world's axes, any length).
     pub fn index(v: DVec3) -> usize {
         let altitude = v.z.atan2(v.truncate().length()).max(0.0);
         let row = ((altitude / ROW_HEIGHT) as usize).min(ROWS.len() - 1);

@@ -1,8 +1,8 @@
-//! Integrals of a measured sky, which is constant on the cells of Tregenza's lattice of the dome.
+//! Integrals of the luminance of a measured sky, which is constant over each of Tregenza's patches of the dome.
 //!
-//! Along a line of constant azimuth of the aperture every border of the lattice, altitude circle or meridian plane, is
-//! a root in closed form, so the integral over θ is exact; over φ it is smooth between the azimuths of the
-//! lattice's corners and of the borders' crossings with the region's edges, all of them in closed form too.
+//! Along a line of constant azimuth of the aperture every border of a patch, altitude circle or meridian plane, is a
+//! root in closed form, so that the integral over θ is exact; over φ it is smooth between the azimuths of the patches'
+//! corners and of the crossings of their borders with the region's edges, all of them in closed form, too.
 
 use super::distribution::Model;
 use super::outside::Outside;
@@ -13,7 +13,7 @@ use crate::compute::quadrature::{Tolerance, integrate};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Returns the normals of the vertical planes that hold the borders of the rows' sectors, each once.
+/// Returns the normals of the vertical planes that contain the borders between the patches of a row, each plane once.
 fn meridian_planes() -> Vec<DVec3> {
     let mut bearings: Vec<f64> = ROWS[..7]
         .iter()
@@ -24,7 +24,7 @@ fn meridian_planes() -> Vec<DVec3> {
     bearings.into_iter().map(|bearing| DVec3::new(bearing.cos(), -bearing.sin(), 0.0)).collect()
 }
 
-/// Returns the bearings of all borders between sectors. \[rad\]
+/// Returns the bearings of all borders between the patches of a row, for all rows. \[rad\]
 pub(super) fn sector_bearings() -> Vec<f64> {
     let of = |&count: &usize| (0..count).map(move |k| (k as f64 + 0.5) * 2.0 * PI / count as f64);
     let mut bearings: Vec<f64> = ROWS[..7].iter().flat_map(of).collect();
@@ -33,7 +33,7 @@ pub(super) fn sector_bearings() -> Vec<f64> {
     bearings
 }
 
-/// Returns the corners of the lattice's cells as unit vectors.
+/// Returns the corners of the patches as unit vectors in the world's axes.
 fn corners() -> Vec<DVec3> {
     let mut corners = Vec::new();
     for (row, &count) in ROWS[..7].iter().enumerate() {
@@ -48,8 +48,8 @@ fn corners() -> Vec<DVec3> {
     corners
 }
 
-/// Computes ∫ L · weight over the part of a region above the skyline. `cuts`: azimuths φ₀ … φ₁ at which that part has
-/// knots.
+/// Computes ∫ L · weight dω over the part of a region above the uniform skyline for the luminance L of a measured sky.
+/// `cuts`: azimuths from φ₀ to φ₁ at which that part has knots.
 pub(super) fn integrate_scan(
     outside: &Outside,
     region: &Region,
@@ -70,7 +70,7 @@ pub(super) fn integrate_scan(
         for theta in [region.theta.0, region.theta.1] {
             region.crossings(plane, 0.0, theta, &mut inner);
         }
-        // Crossings with the skyline: there the direction is known.
+        // Crossings with the skyline, whose directions are known in closed form.
         if outside.skyline_sine > 0.0 {
             let along = DVec3::new(plane.y, -plane.x, 0.0) * outside.skyline_altitude.cos();
             for sign in [1.0, -1.0] {

@@ -1,28 +1,30 @@
-//! The sun as a uniform disc of 0.533°, seen by a receiver past straight edges.
+//! Visible part of the sun, a uniform disc of 0.533°, for a receiver behind straight edges.
 //!
-//! On the disc's scale every edge (of an aperture, the receiver's own plane, the horizon) is a straight line in the
-//! plane that touches the sphere at the sun's centre.
+//! At the size of the disc every edge (of an aperture, the receiver's plane, the horizon) is a straight line in the
+//! plane that touches the unit sphere at the sun's centre.
 
 use super::sun::SUN_HALF_ANGLE;
 use crate::compute::polygon::{cut, cut_by_all, is_tiny};
 use glam::{DVec2, DVec3};
 
-/// One edge: directions ω with `normal · ω ≥ offset` are free.
+/// Edge that hides a part of the sphere: directions ω with `normal · ω ≥ offset` are visible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Edge {
-    /// Normal of the edge, not necessarily of unit length.
+    /// Normal of the edge, towards the visible side, not necessarily of unit length.
     pub normal: DVec3,
-    /// Offset along the normal: 0 for a great circle; sin(altitude) for a skyline with the zenith as normal.
+    /// Offset of the edge along the normal: 0 for a great circle; sin(altitude) for a uniform skyline with the zenith
+    /// as normal.
     pub offset: f64,
 }
 
 impl Edge {
-    /// Returns the edge that leaves free the half of the sphere on the normal's side.
+    /// Creates the edge that leaves the hemisphere on the normal's side visible.
     pub const fn great_circle(normal: DVec3) -> Self {
         Self { normal, offset: 0.0 }
     }
 
-    /// Returns the edge across a unit normal that leaves a share of the sun's disc free, 0 … 1; `height`: normal · sun.
+    /// Creates the edge with this unit normal that leaves the share `share` of the sun's disc visible, 0 … 1; `height`:
+    /// normal · direction towards the sun.
     pub fn leaving(normal: DVec3, height: f64, share: f64) -> Self {
         // The segment's chord at distance t of the radius below the centre, by halving.
         let (mut low, mut high) = (-1.0_f64, 1.0_f64);
@@ -31,7 +33,7 @@ impl Edge {
             let free = 0.5 + (t.asin() + t * (1.0 - t * t).sqrt()) / std::f64::consts::PI;
             if free < share { low = t } else { high = t }
         }
-        // Whole and hidden discs lie clear of the edge.
+        // A fully visible or hidden disc lies at a distance from the edge.
         let t = match share {
             1.0.. => 1.1,
             ..=0.0 => -1.1,
@@ -42,23 +44,25 @@ impl Edge {
     }
 }
 
-/// Extent, relative to the disc's radius, below which a part's area is computed from its own corner. Its area is 1e-10
-/// of the disc's, in which the rounding of 2.2e-16 leaves six digits.
+/// Extent of a visible part, relative to the disc's radius, below which its area is computed relative to one of its
+/// corners. Its area is 1e-10 of the disc's, in which the rounding of 2.2e-16 leaves six digits.
 const SPECK: f64 = 1e-5;
 
 /// Number of vertices of the polygon that represents a partly hidden disc. A polygon of the disc's area lies within
 /// (2π/180)²/12 = 1e-4 of the radius from its rim: the error of [`share`].
 const CORNERS: usize = 180;
 
-/// Returns the illuminance of a receiver per normal illuminance of the whole sun: free share of the disc times the mean
-/// cosine to the receiver's normal. Exact `receiver · sun` for a free disc, 0 for a hidden one; between them within
-/// 1e-4. The receiver's own plane must be among the edges.
+/// Returns the illuminance of a receiver by the sun relative to the unobstructed normal illuminance: visible share of
+/// the disc times the mean cosine to the receiver's normal. Exactly `receiver · sun` for a fully visible disc, 0 for a
+/// hidden one; otherwise with an error of at most 1e-4. `sun`: direction towards the sun; `receiver`: normal of the
+/// receiver, whose plane must be among the edges; all in the same frame.
 pub fn share(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>) -> f64 {
     share_past(sun, receiver, edges, &[])
 }
 
-/// Returns [`share`] where convex bodies hide parts of the disc in addition. Each body is given by the normals of the
-/// planes through the receiver that hold it: it is seen in directions ω with n·ω > 0 for all of them.
+/// Returns the illuminance of a receiver by the sun relative to the unobstructed normal illuminance, like [`share`], if
+/// convex bodies hide further parts of the disc. Each body is given by the normals n of the planes through the receiver
+/// that bound it: it covers the directions ω with n·ω > 0 for all of them.
 pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> f64 {
     match free(sun, edges, bodies) {
         Free::None => 0.0,
@@ -67,8 +71,8 @@ pub fn share_past(sun: DVec3, receiver: DVec3, edges: impl IntoIterator<Item = E
     }
 }
 
-/// Returns the direction towards the middle of the free part of the disc: the sun itself for a free disc, `None` for a
-/// hidden one.
+/// Returns the vector towards the middle of the visible part of the sun's disc: the sun itself for a fully visible
+/// disc, `None` for a hidden one.
 pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3> {
     match free(sun, edges, &[]) {
         Free::None => None,
@@ -77,17 +81,20 @@ pub fn middle(sun: DVec3, edges: impl IntoIterator<Item = Edge>) -> Option<DVec3
     }
 }
 
-/// Part of the disc that is not hidden.
+/// Visible part of the sun's disc.
 enum Free {
     None,
     All,
-    /// Share of the disc, and its middle on the plane that touches the sphere at the sun.
+    /// Visible share of the disc, and the middle of the visible part on the plane that touches the unit sphere at the
+    /// sun.
     Part {
         share: f64,
         middle: DVec3,
     },
 }
 
+/// Computes the visible part of the sun's disc in front of all `edges` and outside all `bodies`, each given by the
+/// inward normals of the planes through the viewpoint.
 fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]) -> Free {
     let radius = SUN_HALF_ANGLE.tan();
     let (u, v) = sun.any_orthonormal_pair();
@@ -103,7 +110,7 @@ fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]
             crossing.push((slope, height));
         }
     }
-    // Of every body the borders that cross the disc; those that leave all of it inside do not matter.
+    // The planes of every body that cross the disc; planes with the whole disc on their inner side do not matter.
     let mut holes: Vec<Vec<(DVec2, f64)>> = Vec::new();
     for body in bodies.iter().filter(|body| !body.is_empty()) {
         let mut borders = Vec::new();
@@ -140,7 +147,8 @@ fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]
     }
     let (mut area, mut moment) = (0.0, DVec2::ZERO);
     for polygon in &pieces {
-        // A speck of the disc is counted from its own corner, since its area is lost in products of places on the disc.
+        // A tiny piece of the disc is integrated relative to its own corner, because rounding of coordinates on the
+        // disc exceeds its area.
         let origin = polygon.first().copied().unwrap_or_default();
         let speck = polygon.iter().all(|p| p.distance(origin) < SPECK * radius);
         let origin = if speck { origin } else { DVec2::ZERO };
@@ -161,7 +169,7 @@ fn free(sun: DVec3, edges: impl IntoIterator<Item = Edge>, bodies: &[Vec<DVec3>]
     Free::Part { share, middle: sun + u * centroid.x + v * centroid.y }
 }
 
-/// Returns the parts of convex pieces outside of a body: beyond its first border, or within that and beyond the second,
+/// Returns the parts of convex pieces outside a body: outside its first border, or inside that and outside the second,
 /// and so on.
 fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec2>> {
     let mut left = Vec::with_capacity(pieces.len());
@@ -183,7 +191,8 @@ fn outside_of(pieces: Vec<Vec<DVec2>>, borders: &[(DVec2, f64)]) -> Vec<Vec<DVec
     left
 }
 
-/// Returns the edges of a convex opening given by its corners as vectors from the receiver.
+/// Returns the edges of a convex aperture through which the sun is seen; `corners`: vectors from the receiver to its
+/// corners. \[m\]
 pub fn opening(corners: &[DVec3]) -> Vec<Edge> {
     let centre = corners.iter().sum::<DVec3>();
     let tiny = is_tiny(corners);

@@ -1,5 +1,5 @@
-//! Cells of faces and ground with a sunlit share each: with them, the light that the sun adds to a view is a sum over
-//! cells with weights that do not depend on the sun.
+//! Cells of faces and ground with the luminance by directly reflected sunlight: the illuminance by sunlit surfaces is a
+//! sum over cells with weights that do not depend on the sun.
 
 use super::equations::Panels;
 use super::open_ground::OpenGround;
@@ -9,25 +9,27 @@ use crate::compute::surroundings::face_light::{Branch, FaceLight, Limits};
 use crate::compute::surroundings::shading::without;
 use glam::{DVec2, DVec3};
 
-/// Distance over height of the eye above the ground from which cells of the ground grow in proportion to the square of
-/// the distance: the solid angle that they are seen in falls with its cube. Chosen: cost; held by the test
+/// Distance of a viewpoint, relative to its height above the ground, from which cells of the ground grow with the
+/// square of the distance, because their solid angle falls with its cube. Chosen: cost; held by the test
 /// `boxes_are_lit_as_at_single_moments` of `prepared`.
 const FAR: f64 = 6.0;
-/// Minimum height of an eye above the ground. \[m\] Chosen: cost; as `LOWEST_EYE` of `faces`.
+/// Minimum height of a viewpoint above the ground in the size of ground cells. \[m\] Chosen: cost; equal to
+/// `LOWEST_EYE` of `faces`.
 const LOWEST: f64 = 0.5;
-/// Share of a cell's area that is negligible.
+/// Sunlit share of a cell's area that is negligible.
 const NOTHING: f64 = 1e-9;
 
-/// Cells of all surfaces that reflect, numbered throughout.
+/// Cells of all reflecting surfaces, numbered consecutively.
 pub(super) struct SunCells {
     panels: Panels,
-    /// Tree of the cells of every surface, and number of its first cell.
+    /// Tree of the cells of every surface, and index of its first cell.
     trees: Vec<(Vec<Branch>, usize)>,
 }
 
 impl SunCells {
-    /// Cuts the surfaces that reflect, or those of them that are `wanted`, into cells whose sides are no longer than
-    /// `side` times the distance from the nearest viewpoint, or `least`. \[m\]
+    /// Divides the reflecting surfaces, or those of them that are `wanted`, into cells whose sides are at most `side`
+    /// times the distance from the nearest viewpoint, or `least` \[m\] if that is larger. `viewpoints`: in the world's
+    /// axes \[m\].
     pub fn new(
         scenery: &Scenery<'_>,
         ground: &OpenGround,
@@ -68,17 +70,18 @@ impl SunCells {
         Self { panels, trees }
     }
 
-    /// Returns the number of cells.
+    /// Returns the number of cells of all surfaces.
     pub const fn len(&self) -> usize {
         self.panels.places.len()
     }
 
-    /// Calls `add` with the cell at a point of a surface, if there is one.
+    /// Calls `add` with the index of the cell at a point of a surface, if there is one.
     pub fn at(&self, surface: usize, at: [f64; 2], mut add: impl FnMut(usize)) {
         self.panels.weigh(surface, at, |cell, _| add(cell));
     }
 
-    /// Returns the luminance that the sun adds to every cell, its mean where a shadow's edge crosses it. \[cd/m²\]
+    /// Returns the luminance of every cell by directly reflected sunlight, the mean where the edge of a shadow crosses
+    /// the cell. \[cd/m²\]
     pub fn luminances(&self, scenery: &Scenery<'_>) -> Vec<f64> {
         let mut all = vec![0.0; self.len()];
         for (surface, (tree, first)) in scenery.surfaces.iter().zip(&self.trees) {
@@ -92,7 +95,7 @@ impl SunCells {
     }
 }
 
-/// A convex shadow on a surface.
+/// Convex shadow on a surface, with its bounding rectangle.
 struct Shadow<'a> {
     outline: &'a [DVec2],
     bounds: Limits,
@@ -114,6 +117,8 @@ impl<'a> Shadow<'a> {
         Self { outline, bounds: [range(|p| p.x), range(|p| p.y)] }
     }
 
+    /// Returns whether the shadow covers none, a part or all of a rectangle; an outline that only comes close may count
+    /// as a part.
     fn cover(&self, rectangle: &Limits) -> Cover {
         if (0..2).any(|axis| self.bounds[axis][0] >= rectangle[axis][1] || self.bounds[axis][1] <= rectangle[axis][0]) {
             return Cover::Nothing;
@@ -136,8 +141,8 @@ const fn corners(&[[a, b], [c, d]]: &Limits) -> [DVec2; 4] {
     [DVec2::new(a, c), DVec2::new(b, c), DVec2::new(b, d), DVec2::new(a, d)]
 }
 
-/// Writes the luminance of the cells of a part of the tree: the part of `sun` outside of `shadows`, which holds all
-/// shadows that may reach the part. \[cd/m²\]
+/// Writes the luminances of the cells in a part of the tree into `all`: `sun` times the share outside `shadows`, which
+/// contains all shadows that may reach that part. \[cd/m²\]
 fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all: &mut [f64]) {
     let Branch { limits, halves, values } = &tree[part];
     let mut near = Vec::with_capacity(shadows.len());
@@ -154,7 +159,7 @@ fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all
     }
 }
 
-/// Returns the share of a rectangle outside of all shadows.
+/// Returns the share of a rectangle that lies outside all shadows, 0 … 1.
 fn lit_share(rectangle: &Limits, shadows: &[&Shadow<'_>]) -> f64 {
     if shadows.is_empty() {
         return 1.0;

@@ -1,8 +1,9 @@
 //! View from a point of a face or of the ground past boxes with vertical sides.
 //!
-//! Along a bearing every box is a rectangle of distance and height: its front, and its top or underside. Borders in
-//! view are their ends, the horizon and the skyline, in closed form; between two of them one surface alone is seen, the
-//! nearest. Its sunlit and shaded parts are intervals of the same line, in closed form, too.
+//! Along a bearing every box is a rectangle of distance and height, of which the front and the top or underside are
+//! visible. The borders in view are the ends of these, the horizon and the skyline, in closed form; between two of them
+//! a single surface is visible, the nearest. Its sunlit and shaded parts are intervals of the same line, in closed
+//! form, too.
 
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;
@@ -14,7 +15,7 @@ use crate::compute::sweep::rule;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Share of the view below which all small bodies together are neglected. Chosen: close to the accuracy of views,
+/// Share of the hemisphere below which all small bodies together are neglected. Chosen: close to the accuracy of views,
 /// `REST` of `faces`; no test depends on its exact value.
 const LEFT_OUT: f64 = 3e-4;
 /// Angular radius below which a body is small. \[rad\] Chosen; no effect at present: one body of 0.017, the root of
@@ -23,24 +24,24 @@ const SMALL: f64 = 0.06;
 /// Maximum number of bodies, the largest in view, whose corners are borders of pieces of the sweep. Chosen: cost; edges
 /// of further bodies lie within pieces. No test has more bodies in view.
 const WITH_KNOTS: usize = 12;
-/// Maximum length of a piece of the sweep. \[rad\] Chosen: cost; held by the test
+/// Maximum angular length of a piece of the sweep over bearings. \[rad\] Chosen: cost; held by the test
 /// `ground_below_a_skyline_gets_what_cubature_finds`, to 2e-4.
 const PIECE: f64 = 0.35;
-/// Lengths of a piece above which it has two and three Gauss points. \[rad\] Chosen: cost; held by the test
-/// `ground_below_a_skyline_gets_what_cubature_finds`, to 2e-4.
+/// Angular lengths of a piece of the sweep above which it has two and three Gauss points. \[rad\] Chosen: cost; held by
+/// the test `ground_below_a_skyline_gets_what_cubature_finds`, to 2e-4.
 const POINTS: [f64; 2] = [0.02, 0.12];
-/// Length along a bearing for a further Gauss point on surfaces. \[rad\] Chosen: cost; held by the test
+/// Angle along a bearing per additional Gauss point on surfaces. \[rad\] Chosen: cost; held by the test
 /// `places_are_those_that_rays_meet`, to the 4e-3 of its rays.
 const ON_SURFACE: f64 = 0.3;
-/// Length along a bearing for a further Gauss point in the sky. \[rad\] Chosen: cost; held by the test
+/// Angle along a bearing per additional Gauss point in the sky. \[rad\] Chosen: cost; held by the test
 /// `ground_below_a_skyline_gets_what_cubature_finds`, to 2e-4.
 const IN_SKY: f64 = 0.2;
 /// Distance at which the ground ends. \[m\] Chosen: ten times the largest coordinate of a box; there the ground is open
 /// and uniform.
 const FARTHEST: f64 = 1e7;
 
-/// Returns an outside with its open ground lit by the sky and sun that the skyline leaves free, and by the skyline
-/// itself; without a skyline unchanged.
+/// Returns the outside with the luminance of its unobstructed ground corrected for the skyline: the ground is lit by
+/// the sky and sun above the skyline, and by the skyline itself. Without a skyline it is unchanged.
 pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outside {
     let skyline = outside.surroundings().and_then(|around| around.skyline.as_ref());
     if skyline.is_none() && outside.skyline_altitude() <= 0.0 {
@@ -53,16 +54,16 @@ pub fn with_ground_behind_skyline(outside: Outside, sun: Option<&Sun>) -> Outsid
     outside.on_ground(diffuse + direct)
 }
 
-/// A body in front of a point.
+/// Body in front of the viewpoint.
 struct Body<'a> {
     index: usize,
     solid: &'a Solid,
-    /// Bearing of the body's middle; `reach` is the angle on both sides within which it is seen. \[rad\]
+    /// Bearing of the body's middle; the body lies within `reach` on both sides of it. \[rad\]
     bearing: f64,
     reach: f64,
 }
 
-/// Part of a surface along a bearing between two altitudes, if nothing is nearer.
+/// Interval of altitudes that a surface covers along a bearing, unless a nearer surface hides it.
 #[derive(Clone, Copy)]
 struct Stretch {
     /// Lower altitude; `high` is the upper one. \[rad\]
@@ -74,44 +75,45 @@ struct Stretch {
 
 #[derive(Clone, Copy)]
 enum Place {
-    /// A vertical surface at a horizontal distance. \[m\]
+    /// Vertical surface at this horizontal distance from the viewpoint. \[m\]
     Front(f64),
-    /// A horizontal surface at a height above the point. \[m\]
+    /// Horizontal surface at this height above the viewpoint. \[m\]
     Level(f64),
 }
 
 impl Place {
-    /// Returns the horizontal distance at an altitude's tangent. \[m\]
+    /// Returns the horizontal distance of the surface at the altitude with the tangent `tangent`. \[m\]
     fn distance(self, tangent: f64) -> f64 {
         match self {
             Self::Front(distance) => distance,
-            // Towards the horizon infinitely far.
+            // Infinitely far towards the horizon, limited to a finite distance.
             Self::Level(above) => (above / tangent).abs().min(FARTHEST),
         }
     }
 }
 
-/// A sum over everything that is seen from a point. Each piece comes with its projected solid angle at the point.
-/// \[sr\]
+/// Receiver of everything that is visible from a point, piece by piece. `counts` is always the projected solid angle of
+/// the piece at the point. \[sr\]
 pub(super) trait Collector {
-    /// Adds open sky around a direction.
+    /// Adds a piece of sky around a direction.
     fn sky(&mut self, towards: DVec3, counts: f64);
-    /// Adds a part of the skyline, flat or by bearing.
+    /// Adds a piece of the skyline, uniform or by bearing.
     fn skyline(&mut self, counts: f64);
-    /// Adds a part of a surface of stated luminance. \[cd/m²\]
+    /// Adds a piece of a surface of given luminance. \[cd/m²\]
     fn stated(&mut self, luminance: f64, counts: f64);
-    /// Adds a part of a reflecting surface around a point in its own coordinates, in sun or shade.
+    /// Adds a piece of a reflecting surface, sunlit or shaded, around the point `at` in the coordinates of the surface.
+    /// \[m\]
     fn place(&mut self, surface: usize, at: [f64; 2], counts: f64);
-    /// Adds the sunlit part of a reflecting surface.
+    /// Adds the sunlit piece of a reflecting surface, for its directly reflected sunlight.
     fn sunlit(&mut self, surface: usize, counts: f64);
-    /// Returns the length along a bearing for a further point on a surface. \[rad\]
+    /// Returns the angle along a bearing per additional point on a surface. \[rad\]
     fn step(&self) -> f64 {
         ON_SURFACE
     }
 }
 
-/// Illuminance at the point by sky, skyline, stated luminances and sunlit surfaces; the other light of surfaces is left
-/// to `place`.
+/// Collector of the illuminance at a point by sky, skyline, surfaces of given luminance and directly reflected
+/// sunlight; the smooth luminance of surfaces is left to `place`.
 struct Falling<'a, F> {
     scenery: &'a Scenery<'a>,
     /// Sum of the illuminance. \[lx\]
@@ -142,7 +144,7 @@ impl<F: FnMut(usize, [f64; 2], f64)> Collector for Falling<'_, F> {
     }
 }
 
-/// The view from a point.
+/// View from a point of a surface: the bodies in front of it, and whether the ground is visible.
 pub(super) struct Vista<'a> {
     scenery: &'a Scenery<'a>,
     eye: DVec3,
@@ -151,7 +153,7 @@ pub(super) struct Vista<'a> {
     sees_ground: bool,
 }
 
-/// Returns an angle shifted by whole turns into −π … π.
+/// Returns an angle shifted by full turns into −π … π.
 fn turned(angle: f64) -> f64 {
     angle - 2.0 * PI * (angle / (2.0 * PI)).round()
 }
@@ -161,7 +163,7 @@ fn bearing(v: DVec2) -> f64 {
 }
 
 impl<'a> Vista<'a> {
-    /// Creates the view from a point of a surface.
+    /// Creates the view from the point `eye` (world's axes) of the surface with index `surface`.
     pub fn new(scenery: &'a Scenery<'a>, surface: usize, eye: DVec3) -> Self {
         let normal = scenery.surfaces[surface].face.normal;
         let mut known: Vec<(f64, Body<'a>)> = scenery
@@ -170,7 +172,7 @@ impl<'a> Vista<'a> {
             .map(|(index, solid)| {
                 let to = solid.middle() - eye;
                 let aside = to.truncate();
-                // Round the outline of the box.
+                // Along the outline of the box.
                 let reach = solid.outline_radius() / aside.length();
                 let reach = if reach < 1.0 { reach.asin() + 1e-9 } else { PI };
                 (solid.radius() / to.length(), Body { index, solid, bearing: bearing(aside), reach })
@@ -192,16 +194,16 @@ impl<'a> Vista<'a> {
         Self { scenery, eye, normal, bodies, sees_ground }
     }
 
-    /// Computes the light on the point that does not depend on the surfaces' smooth light: from sky, skyline, stated
-    /// luminances, sunlit surfaces. \[lx\] `place` is called with the surface, the coordinates on it and the projected
-    /// solid angle of places whose smooth light counts. \[sr\]
+    /// Computes the illuminance of the point that does not depend on the smooth luminance of surfaces: by sky, skyline,
+    /// surfaces of given luminance and directly reflected sunlight. \[lx\] `place` is called for pieces of reflecting
+    /// surfaces with the index of the surface, the coordinates on it \[m\] and the projected solid angle \[sr\].
     pub fn gather(&self, place: impl FnMut(usize, [f64; 2], f64)) -> f64 {
         let mut falling = Falling { scenery: self.scenery, sum: 0.0, place };
         self.collect(&mut falling);
         falling.sum
     }
 
-    /// Calls `collector` with everything that is seen.
+    /// Calls `collector` with everything that is visible from the point.
     pub fn collect(&self, collector: &mut impl Collector) {
         // Faces are vertical or horizontal: a wall sees half of all bearings.
         let vertical = self.normal.z.abs() < 1e-9;
@@ -234,7 +236,7 @@ impl<'a> Vista<'a> {
         self.scenery.open.sun_direction().map(crate::compute::direction::Dir::vector)
     }
 
-    /// Returns the altitudes in front of the plane of the surface, along a bearing.
+    /// Returns the interval of altitudes in front of the surface's plane along a bearing; `None` if it is empty.
     fn free(&self, along: DVec2) -> Option<[f64; 2]> {
         let (level, up) = (self.normal.truncate().dot(along), self.normal.z);
         if up > 1e-9 {
@@ -246,7 +248,7 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// Collects along one bearing, which represents a range of bearings of `width`. \[rad\]
+    /// Calls `collector` with everything along one bearing, which represents a range of bearings of `width`. \[rad\]
     fn along(&self, at: f64, width: f64, line: &mut Line, collector: &mut impl Collector) {
         let (sin, cos) = at.sin_cos();
         let along = DVec2::new(sin, cos);
@@ -290,7 +292,7 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// Adds the parts of a body along a bearing.
+    /// Adds the visible faces of a body along a bearing to `stretches`.
     fn add(&self, body: &Body<'_>, along: DVec2, stretches: &mut Vec<Stretch>) {
         let Some(([near, far], front)) = body.solid.passage(self.eye.truncate(), along) else { return };
         if far <= 0.0 {
@@ -313,7 +315,8 @@ impl<'a> Vista<'a> {
         }
     }
 
-    /// Returns ∫ cos α (n·d) dα between two altitudes.
+    /// Returns ∫ cos α (n·d) dα between two altitudes along a bearing: the projected solid angle per bearing.
+    /// \[sr/rad\]
     fn between(&self, along: DVec2, from: f64, to: f64) -> f64 {
         let level = self.normal.truncate().dot(along);
         let of = |altitude: f64| {
@@ -323,7 +326,7 @@ impl<'a> Vista<'a> {
         (of(to) - of(from)).max(0.0)
     }
 
-    /// Collects a stretch of one surface.
+    /// Calls `collector` with the interval of one surface between two altitudes along a bearing.
     fn on_surface(
         &self,
         seen: &Stretch,
@@ -361,7 +364,8 @@ impl<'a> Vista<'a> {
         if surface.sun <= 0.0 {
             return;
         }
-        // Along the line on the surface: height of a front, level distance of a level one.
+        // Coordinate along the line on the surface: the height on a vertical surface, the horizontal distance on a
+        // horizontal one.
         let (origin, way, ends) = match seen.place {
             Place::Front(distance) => {
                 let foot = surface.face.coordinates(self.eye + (distance * along).extend(0.0));
@@ -397,14 +401,14 @@ impl<'a> Vista<'a> {
         collector.sunlit(seen.surface, width * lit);
     }
 
-    /// Collects open sky between two altitudes.
+    /// Calls `collector` with the sky between two altitudes along a bearing.
     fn sky(&self, along: DVec2, [from, high]: [f64; 2], width: f64, collector: &mut impl Collector) {
         let steps = self.scenery.open.is_piecewise_constant();
         let peak = self.peak().map(|peak| peak.z.clamp(-1.0, 1.0).asin());
         let level = self.normal.truncate().dot(along);
         let mut low = from;
         while low < high {
-            // To the next row of a measured sky, or the altitude of the sun.
+            // Up to the next row of patches of a measured sky, or to the sun's altitude.
             let row = if steps { ((low / ROW_HEIGHT + 1e-9).floor() + 1.0) * ROW_HEIGHT } else { high };
             let next = peak.filter(|peak| *peak > low + 1e-9).map_or(row, |peak| row.min(peak)).min(high);
             if steps {
@@ -422,7 +426,7 @@ impl<'a> Vista<'a> {
     }
 }
 
-/// Buffers shared by all bearings.
+/// Buffers that are reused for all bearings.
 #[derive(Default)]
 struct Line {
     stretches: Vec<Stretch>,
@@ -430,7 +434,8 @@ struct Line {
     shaded: Vec<[f64; 2]>,
 }
 
-/// Returns the interval of a line inside a convex, counter-clockwise polygon, between two places along it.
+/// Returns the interval of a line, between two positions along it, that lies inside a convex, counter-clockwise
+/// polygon; `None` if it is empty.
 fn through(polygon: &[DVec2], origin: DVec2, way: DVec2, [mut from, mut to]: [f64; 2]) -> Option<[f64; 2]> {
     for (k, &corner) in polygon.iter().enumerate() {
         let side = polygon[(k + 1) % polygon.len()] - corner;

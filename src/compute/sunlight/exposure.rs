@@ -5,24 +5,26 @@ use glam::DVec3;
 /// Levels of EN 17037: name and minimum number of hours.
 pub const LEVELS: [(&str, f64); 3] = [("minimum", 1.5), ("medium", 3.0), ("high", 4.0)];
 
-/// Interval between the moments that are tested first; shorter shadows are missed. \[min\] In 2 min the sun moves by
+/// Interval between the moments that are tested first for sun on the point; shadows shorter than it may be missed.
+/// \[min\] In 2 min the sun moves by
 /// 0.5°, about its own diameter.
 const STEP: f64 = 2.0;
-/// Interval to which begin and end of a span are bisected. \[min\] Chosen: below [`PLACE`].
+/// Accuracy to which the begin and end of a span of sunlight are found by bisection. \[min\] Chosen: below [`PLACE`].
 const EXACT: f64 = 1.0 / 60.0;
 /// Time in which the sun moves by 0.01°, the accuracy of its position, at 15° per hour. \[min\] The accuracy is held by
 /// `tests/compute/sky.rs::solar_positions_agree_with_the_reference`.
 const PLACE: f64 = 0.04;
 
-/// Spans of exposure to sunlight on one day, of one opening or of several together.
+/// Spans of time on one day in which one opening, or one of several together, is exposed to sunlight.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
-    /// Begin and end of every span, in minutes after local midnight.
+    /// Begin and end of every span, after local midnight. \[min\]
     pub spans: Vec<[f64; 2]>,
 }
 
 impl Exposure {
-    /// Finds the spans of a day in which `free`, called with minutes after midnight, holds.
+    /// Finds the spans of a day in which the sun reaches an opening's reference point unobstructed: those in which
+    /// `free`, called with minutes after local midnight, returns `true`.
     pub fn of(free: impl Fn(f64) -> bool) -> Self {
         let edge = |mut dark: f64, mut sunny: f64| {
             while (sunny - dark).abs() > EXACT {
@@ -48,32 +50,33 @@ impl Exposure {
         Self { spans }
     }
 
-    /// Returns the total duration of the spans. \[h\]
+    /// Returns the total duration of exposure to sunlight on the day. \[h\]
     pub fn hours(&self) -> f64 {
         self.spans.iter().map(|[from, to]| to - from).sum::<f64>() / 60.0
     }
 
-    /// Returns the uncertainty of the duration due to the sun's position. \[h\]
+    /// Returns the uncertainty of the total duration of exposure, due to that of the sun's position at the ends of the
+    /// spans. \[h\]
     pub fn error(&self) -> f64 {
         2.0 * (PLACE + EXACT) * self.spans.len() as f64 / 60.0
     }
 
-    /// Returns the highest of [`LEVELS`] that is reached.
+    /// Returns the name of the highest of [`LEVELS`] that the duration of exposure reaches; `None` below the lowest.
     pub fn level(&self) -> Option<&'static str> {
         let hours = self.hours();
         LEVELS.iter().rev().find(|(_, least)| hours >= *least).map(|(name, _)| *name)
     }
 }
 
-/// Returns the height of an opening's reference point: its middle, but no lower than 1.2 m above the floor and 0.3 m
-/// above its own lower edge, as far as it reaches so high. `low`, `high`: of the opening; heights above the floor.
-/// \[m\]
+/// Returns the height above the floor of the reference point of an opening (EN 17037): that of its middle, but no lower
+/// than 1.2 m above the floor and 0.3 m above its lower edge, and never above its upper edge. `low` and `high`: heights
+/// of the opening's lower and upper edge above the floor. \[m\]
 pub fn reference_height(low: f64, high: f64) -> f64 {
     (0.5 * (low + high)).max(1.2).max(low + 0.3).min(high)
 }
 
-/// Whether the sun is in front of a surface and not below `least_altitude` \[rad\]. `outward` and `sun`: in one frame,
-/// of unit length, z up.
+/// Whether the sun is in front of a surface and its altitude not below `least_altitude` \[rad\]. `sun` is the unit
+/// vector towards the sun, `outward` the surface's outward unit normal; both in the same frame with z up.
 pub fn is_before(sun: DVec3, outward: DVec3, least_altitude: f64) -> bool {
     sun.z >= least_altitude.sin() && sun.dot(outward) > 0.0
 }

@@ -6,9 +6,10 @@ use glam::DVec3;
 
 /// Eye height of a seated person (EN 17037). \[m\]
 pub const EYE_HEIGHT: f64 = 1.2;
-/// Share of the points from which a level has to be reached (EN 17037).
+/// Share of the points of a room from which a level of view out has to be reached (EN 17037).
 pub const SHARE: f64 = 0.75;
-/// Levels of EN 17037: name, minimum horizontal sight angle \[rad\], minimum distance \[m\], minimum number of layers.
+/// Levels of view out by EN 17037: name, minimum horizontal sight angle \[rad\], minimum distance \[m\], minimum number
+/// of layers.
 pub const LEVELS: [(&str, f64, f64, usize); 3] = [
     ("minimum", 14.0 * std::f64::consts::PI / 180.0, 6.0, 1),
     ("medium", 28.0 * std::f64::consts::PI / 180.0, 20.0, 2),
@@ -21,35 +22,38 @@ const RAYS: usize = 90;
 /// the opening's height may be missed. No test depends on its exact value.
 const SIDE: usize = 24;
 
-/// Object that a ray meets outside.
+/// Object that a line of sight meets outside the room.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Met {
-    /// Nothing, above the horizon.
+    /// Sky: the ray points above the horizon and meets no obstruction.
     Sky,
-    /// Nothing, below the horizon.
+    /// Ground: the ray points below the horizon and meets no obstruction.
     Ground,
-    /// Obstruction at a distance from the eye; `None` where that is not known, as of a skyline. \[m\]
+    /// Obstruction, with its distance from the eye \[m\]; `None` where the distance is not known, e.g. that of a
+    /// skyline.
     Thing(Option<f64>),
 }
 
-/// View out from one point.
+/// View out through the openings of a façade from one point of the room, by the criteria of EN 17037.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ViewOut {
-    /// Horizontal angle of all openings of the façade together. \[rad\]
+    /// Horizontal sight angle: sum of the angles under which the openings of the façade are seen, overlaps counted
+    /// once. \[rad\]
     pub sight_angle: f64,
-    /// Distance that half of the sight angle reaches at least; infinite where it meets nothing. `None` where the scene
-    /// does not specify it, or without a view. \[m\]
+    /// Outside distance of the view: half of the sight angle sees at least so far. \[m\] Infinite without obstructions.
+    /// `None` if the scene does not specify the distance of what is seen, or if there is no view.
     pub distance: Option<f64>,
-    /// Whether the sky is seen.
+    /// Whether the layer of sky is seen.
     pub sky: bool,
-    /// Whether the horizon, or an obstruction in front of it, is seen.
+    /// Whether the layer of landscape is seen: the horizon, or an obstruction in front of it.
     pub landscape: bool,
-    /// Whether the ground is seen.
+    /// Whether the layer of ground is seen.
     pub ground: bool,
 }
 
 impl ViewOut {
-    /// Computes the view from a point in the room's axes; `met`: returns the object that a ray from it meets outside.
+    /// Computes the view from a point in the room's axes \[m\] through `apertures`; `met` returns the object that a ray
+    /// from the point in a unit direction of the same axes meets outside.
     pub fn of(point: DVec3, apertures: &[Aperture], met: impl Fn(DVec3) -> Met) -> Self {
         let mut view = Self::default();
         let mut spans = Vec::new();
@@ -89,13 +93,13 @@ impl ViewOut {
         view
     }
 
-    /// Returns the number of layers.
+    /// Returns the number of layers seen, 0 to 3: sky, landscape, ground.
     pub fn layers(&self) -> usize {
         [self.sky, self.landscape, self.ground].into_iter().filter(|seen| *seen).count()
     }
 
-    /// Returns the highest of [`LEVELS`] that angle, distance and layers reach together; the lowest requires the
-    /// landscape. `None` where none is reached, or where the distance is not known.
+    /// Returns the name of the highest of [`LEVELS`] that sight angle, distance and layers reach together; the lowest
+    /// requires the landscape. `None` where none is reached, or where the distance is not known.
     pub fn level(&self) -> Option<&'static str> {
         let distance = self.distance.filter(|_| self.landscape)?;
         LEVELS
@@ -106,7 +110,8 @@ impl ViewOut {
     }
 }
 
-/// Returns the figures that are reached from at least [`SHARE`] of the points, each figure separately.
+/// Returns the sight angle, distance and layers that are reached from at least [`SHARE`] of the points whose views are
+/// given, each of these figures separately.
 pub fn from_most(views: &[ViewOut]) -> ViewOut {
     // So many points from the best down are enough.
     let rank = (SHARE * views.len() as f64 - 1e-9).ceil() as usize;
@@ -126,7 +131,7 @@ pub fn from_most(views: &[ViewOut]) -> ViewOut {
     }
 }
 
-/// Merges spans that overlap.
+/// Merges overlapping spans of horizontal angle \[rad\] into disjoint ones.
 fn merged(mut spans: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut all: Vec<[f64; 2]> = Vec::new();

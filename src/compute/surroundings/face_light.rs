@@ -1,60 +1,62 @@
-//! Luminance of one face: smooth light in panels of polynomials, the sun's as a constant with sharp shadows.
+//! Luminance of one face: a smooth part as polynomials on panels, and a constant part by directly reflected sunlight
+//! with sharp shadows.
 
 use std::ops::Range;
 
-/// Number of nodes along each side of a panel. Chosen: polynomials of degree 2, as [`lagrange`] has them; panels are
-/// halved where these do not suffice.
+/// Number of nodes along each side of a panel. Chosen: polynomials of degree 2 ([`lagrange`]); panels are halved where
+/// these do not suffice.
 const NODES: usize = 3;
-/// Places at which a panel's polynomial is checked, as shares of its sides: between its nodes, and beyond them on every
-/// side. Chosen; nodes are at 0.07, 0.5 and 0.93. Held by the test
+/// Points at which a panel's polynomial is checked, as shares of its sides: between its nodes, and outside them on
+/// every side. Chosen; nodes are at 0.07, 0.5 and 0.93. Held by the test
 /// `panels_stand_close_where_the_light_is_steep_and_are_bounded`.
 const TRIES: [[f64; 2]; 5] = [[0.28, 0.73], [0.98, 0.33], [0.36, 0.02], [0.02, 0.62], [0.65, 0.98]];
 
-/// Share of the mean misfit at these places that remains in light from many places, where positive and negative misfits
+/// Share of the mean misfit at these points that remains in sums over many points, where positive and negative misfits
 /// cancel. Chosen; stated errors with it are held by `tests/scenes/exchange.rs` and
 /// `tests/scenes/reference_kit.rs::what_stands_outside`.
 const TRIED_SHARE: f64 = 0.3;
 
-/// Lower and upper limit along both axes. \[m\]
+/// Rectangle on a face: lower and upper limit along both axes of its coordinates. \[m\]
 pub type Limits = [[f64; 2]; 2];
 
-/// Light of a face.
+/// Luminance of a face (of a box, or of the ground) by position: a smooth part on panels, and a part by directly
+/// reflected sunlight.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceLight {
-    /// Tree of the parts, its root first.
+    /// Tree of the parts of the face, its root first.
     parts: Vec<Part>,
     /// Luminances at the nodes of all panels. \[cd/m²\]
     values: Vec<f64>,
-    /// Luminance that the whole disc of the sun adds where nothing hides it. \[cd/m²\]
+    /// Luminance by directly reflected sunlight at points from which the whole disc of the sun is visible. \[cd/m²\]
     pub sun: f64,
-    /// Relative error of the smooth light, in addition to the misfit of panels between their nodes.
+    /// Relative error of the smooth luminance, in addition to the misfit of panels between their nodes.
     pub error: f64,
 }
 
-/// A part of a face.
+/// Part of a face in the tree of its panels.
 #[derive(Debug, Clone, PartialEq)]
 enum Part {
-    /// Uniform luminance. \[cd/m²\]
+    /// Part of uniform luminance. \[cd/m²\]
     Even(f64),
-    /// Two parts on both sides of a line across an axis.
+    /// Part divided by a line across an axis; `sides` are the indices of the two halves.
     Cut { axis: usize, at: f64, sides: [usize; 2] },
-    /// A rectangle with `nodes` nodes along each side; `first` is the index of the first of their values, `off` the
-    /// mean misfit of its polynomial between them. \[cd/m²\]
+    /// Panel: rectangle with `nodes` nodes along each side; `first` is the index of the first of their values, `off`
+    /// the mean misfit of its polynomial between them. \[cd/m²\]
     Panel { limits: Limits, nodes: usize, first: usize, off: f64 },
 }
 
-/// A part of a face with all panels in it.
+/// Part of a face in the tree of its panels, with the range of the values of all panels in it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
-    /// Borders of the part. \[m\]
+    /// Limits of the part in the coordinates of the face. \[m\]
     pub limits: Limits,
-    /// Indices of the part's halves in the tree; `None` for a panel.
+    /// Indices of the two halves of the part in the tree; `None` for a panel.
     pub halves: Option<[usize; 2]>,
-    /// Indices of the part's values among those of the face.
+    /// Range of the values of the part's panels among those of the face.
     pub values: Range<usize>,
 }
 
-/// A panel whose misfit is still to be compared.
+/// Panel whose misfit is still to be compared.
 struct Open {
     part: usize,
     limits: Limits,
@@ -65,7 +67,7 @@ struct Open {
 /// Chebyshev's nodes on −1 … 1: √3/2, 0 and −√3/2, the zeros of T₃.
 const NODE: f64 = 0.866_025_403_784_438_6;
 
-/// Returns the weights of the three nodes' values at a place of −1/[`NODE`] … 1/[`NODE`].
+/// Returns the weights of the values at the three nodes at a position from −1/[`NODE`] to 1/[`NODE`].
 fn lagrange(t: f64) -> [f64; NODES] {
     [0.5 * t * (t + 1.0), 1.0 - t * t, 0.5 * t * (t - 1.0)]
 }
@@ -79,7 +81,7 @@ fn area(limits: &Limits) -> f64 {
     limits.iter().map(|[low, high]| high - low).product()
 }
 
-/// Returns the weights of a panel's nodes at a point, along both axes.
+/// Returns the interpolation weights of a panel's nodes at a point, separately along both axes.
 fn both(limits: &Limits, point: [f64; 2]) -> [[f64; NODES]; 2] {
     std::array::from_fn(|axis| {
         let [low, high] = limits[axis];
@@ -87,20 +89,21 @@ fn both(limits: &Limits, point: [f64; 2]) -> [[f64; NODES]; 2] {
     })
 }
 
-/// Returns the weights of a panel's nodes at a point.
+/// Returns the interpolation weights of all nodes of a panel at a point.
 fn weights(limits: &Limits, point: [f64; 2]) -> [f64; NODES * NODES] {
     let [along, across] = both(limits, point);
     std::array::from_fn(|k| along[k / NODES] * across[k % NODES])
 }
 
 impl FaceLight {
-    /// Creates uniform light of one luminance. \[cd/m²\]
+    /// Creates a uniform luminance of the whole face. \[cd/m²\]
     pub fn even(luminance: f64) -> Self {
         Self { parts: vec![Part::Even(luminance)], values: Vec::new(), sun: 0.0, error: 0.0 }
     }
 
-    /// Creates dark panels. `cut` returns the axis across which and the coordinate at which a rectangle is cut in two;
-    /// `single`: each panel has one value.
+    /// Creates panels with luminance 0 on a face with these limits. `cut`: returns the axis across which and the
+    /// coordinate at which a rectangle is divided in two, `None` for a panel; `single`: whether each panel has one
+    /// value instead of a polynomial.
     pub fn panelled(limits: Limits, single: bool, cut: &dyn Fn(&Limits) -> Option<(usize, f64)>) -> Self {
         let mut light = Self::even(0.0);
         let mut open = vec![(0, limits)];
@@ -113,12 +116,13 @@ impl FaceLight {
         light
     }
 
-    /// Returns smooth light fitted to `measure`, which returns the light at places \[cd/m²\], `NaN` where there is
-    /// none. The worst of the dark panels ([`Self::panelled`]) are halved until their polynomials are off by no more
-    /// than `relative` of the mean, or there are `most`. Places are weighted by `weight`.
+    /// Returns the smooth luminance fitted to that of `measure`, which returns the luminances at points of the face
+    /// \[cd/m²\], `NaN` at points that a body covers. The panels with the largest misfit are halved until the total
+    /// misfit is at most `relative` times the integral of the luminance, or until there are `most` panels. `weight`:
+    /// weight of a point of the face.
     ///
     /// # Errors
-    /// Returns the errors of `measure`.
+    /// Returns the error of `measure`.
     pub fn fitted<E>(
         mut self,
         relative: f64,
@@ -158,7 +162,7 @@ impl FaceLight {
         }
     }
 
-    /// Removes the values of panels that were cut.
+    /// Removes the values of panels that were divided.
     fn without_former_values(mut self) -> Self {
         let all = std::mem::take(&mut self.values);
         for part in &mut self.parts {
@@ -187,7 +191,7 @@ impl FaceLight {
         })
     }
 
-    /// Computes the values at the nodes of panels, and their misfit between the nodes.
+    /// Computes the luminances at the nodes of panels, and the misfit of their polynomials between the nodes.
     fn measure<E>(
         &mut self,
         panels: &mut [Open],
@@ -220,7 +224,7 @@ impl FaceLight {
         Ok(())
     }
 
-    /// Returns the axis along which a panel is bent more.
+    /// Returns the axis along which the luminance of a panel has the larger curvature.
     fn bent(&self, part: usize) -> usize {
         let Part::Panel { first, .. } = self.parts[part] else { return 0 };
         let values = &self.values[first..];
@@ -230,7 +234,7 @@ impl FaceLight {
         usize::from(across > along)
     }
 
-    /// Returns the weighted integral of the panels' light over their areas.
+    /// Returns the weighted integral of the panels' luminance over their areas.
     fn integral(&self, weight: &dyn Fn([f64; 2]) -> f64) -> f64 {
         let of = |part: &Part| match part {
             Part::Panel { limits, nodes, first, .. } => {
@@ -242,7 +246,8 @@ impl FaceLight {
         self.parts.iter().map(of).sum()
     }
 
-    /// Returns the weighted mean luminance of the panels. \[cd/m²\]
+    /// Returns the mean smooth luminance of the panels, weighted by `weight`, a function of the point on the face.
+    /// \[cd/m²\]
     pub fn mean(&self, weight: &dyn Fn([f64; 2]) -> f64) -> f64 {
         let of = |part: &Part| match part {
             Part::Panel { limits, .. } => area(limits) * weight(place(limits, [0.5; 2])),
@@ -252,12 +257,12 @@ impl FaceLight {
         if area > 0.0 { self.integral(weight) / area } else { 0.0 }
     }
 
-    /// Returns the number of panels.
+    /// Returns the number of panels of the face.
     pub fn panels(&self) -> usize {
         self.parts.iter().filter(|part| !matches!(part, Part::Cut { .. })).count()
     }
 
-    /// Returns the places at which the panels hold values, in the face's coordinates. \[m\]
+    /// Returns the positions of the nodes of all panels in the coordinates of the face. \[m\]
     pub fn places(&self) -> Vec<[f64; 2]> {
         let mut places = vec![[0.0; 2]; self.values.len()];
         for part in &self.parts {
@@ -268,7 +273,7 @@ impl FaceLight {
         places
     }
 
-    /// Returns the tree of the panels, the whole of `limits` first, every part before its halves.
+    /// Returns the tree of the panels of a face with these limits: the whole face first, every part before its halves.
     pub fn branches(&self, limits: Limits) -> Vec<Branch> {
         let mut tree: Vec<Branch> = self.parts.iter().map(|_| Branch { limits, halves: None, values: 0..0 }).collect();
         for (index, part) in self.parts.iter().enumerate() {
@@ -284,7 +289,7 @@ impl FaceLight {
                 Part::Panel { nodes, first, .. } => tree[index].values = *first..first + nodes * nodes,
             }
         }
-        // One half was filled after the other: their values stand together.
+        // The halves were filled one after the other, so that their values are adjacent.
         for index in (0..tree.len()).rev() {
             if let Some([a, b]) = tree[index].halves {
                 let (a, b) = (tree[a].values.clone(), tree[b].values.clone());
@@ -294,13 +299,13 @@ impl FaceLight {
         tree
     }
 
-    /// Returns the values of the panels. \[cd/m²\]
+    /// Returns the smooth luminances at the nodes of all panels. \[cd/m²\]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Sets the values at the places of the nodes; where one is `NaN`, that of the nearest of its panel, or else 0. The
-    /// misfit of a panel changes in proportion to its light. \[cd/m²\]
+    /// Sets the smooth luminances at the nodes of all panels \[cd/m²\]; a `NaN` is replaced by the value of the nearest
+    /// node of its panel that has one, otherwise by 0. The misfit of a panel changes in proportion to its luminance.
     pub fn set(&mut self, values: &[f64]) {
         let places = self.places();
         for part in &mut self.parts {
@@ -314,7 +319,7 @@ impl FaceLight {
         }
     }
 
-    /// Returns the part at a place.
+    /// Returns the part of the tree that contains a point.
     fn part(&self, at: [f64; 2]) -> &Part {
         &self.parts[self.index(at)]
     }
@@ -327,8 +332,8 @@ impl FaceLight {
         index
     }
 
-    /// Calls `visit` with the index and weight of each value in the light at a place; not at all where there is no
-    /// panel.
+    /// Calls `visit` with the indices and interpolation weights of the node values that determine the smooth luminance
+    /// at a point of the face; not at all outside panels.
     pub fn weigh(&self, at: [f64; 2], mut visit: impl FnMut(usize, f64)) {
         if let Part::Panel { limits, nodes, first, .. } = self.part(at) {
             if *nodes == 1 {
@@ -339,13 +344,15 @@ impl FaceLight {
         }
     }
 
-    /// Returns the smooth light at a point by its coordinates on the face, and its uncertainty. \[cd/m²\]
+    /// Returns the smooth luminance at a point of the face, given by its coordinates \[m\], and its uncertainty.
+    /// \[cd/m²\]
     pub fn at(&self, u: f64, v: f64) -> [f64; 2] {
         self.near(&mut 0, [u, v])
     }
 
-    /// Returns smooth light and its uncertainty at a point by its coordinates on the face. `last`: part in which the
-    /// previous point was found, 0 for the first; near points are found faster. \[cd/m²\]
+    /// Returns the smooth luminance at a point of the face, given by its coordinates \[m\], and its uncertainty.
+    /// \[cd/m²\] `last`: index of the part in which the previous point was found, 0 for the first; it speeds up the
+    /// search for points near each other.
     pub fn near(&self, last: &mut usize, at: [f64; 2]) -> [f64; 2] {
         let inside = |limits: &Limits| (0..2).all(|axis| at[axis] > limits[axis][0] && at[axis] < limits[axis][1]);
         if !matches!(&self.parts[*last], Part::Panel { limits, .. } if inside(limits)) {
@@ -366,12 +373,13 @@ impl FaceLight {
         [light, off + self.error * light]
     }
 
-    /// Returns the smooth light at a point, without its uncertainty. \[cd/m²\]
+    /// Returns the smooth luminance at a point of the face, given by its coordinates \[m\], without its uncertainty.
+    /// \[cd/m²\]
     pub fn diffuse(&self, u: f64, v: f64) -> f64 {
         self.at(u, v)[0]
     }
 
-    /// Multiplies all light by a factor.
+    /// Multiplies all luminances of the face by a factor.
     pub fn scale(&mut self, factor: f64) {
         for part in &mut self.parts {
             match part {
@@ -383,14 +391,14 @@ impl FaceLight {
         self.sun *= factor;
     }
 
-    /// Whether there is any light.
+    /// Whether any luminance of the face is above 0.
     pub fn is_lit(&self) -> bool {
         let shines = |part: &Part| matches!(part, Part::Even(luminance) if *luminance > 0.0);
         self.sun > 0.0 || self.values.iter().any(|value| *value > 0.0) || self.parts.iter().any(shines)
     }
 }
 
-/// Returns the places of a rectangle's nodes.
+/// Returns the positions of the nodes of a rectangle, `count` along each side. \[m\]
 fn places_of(limits: &Limits, count: usize) -> Vec<[f64; 2]> {
     if count == 1 {
         return vec![place(limits, [0.5; 2])];
@@ -400,7 +408,7 @@ fn places_of(limits: &Limits, count: usize) -> Vec<[f64; 2]> {
     both.map(|shares| place(limits, shares)).collect()
 }
 
-/// Returns the values, with `NaN` replaced by the value of the nearest place that has one.
+/// Returns the values at some points, with each `NaN` replaced by the value of the nearest point that has one.
 fn filled(values: &[f64], places: &[[f64; 2]]) -> Vec<f64> {
     let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
     let known = || (0..values.len()).filter(|k| !values[*k].is_nan());

@@ -1,18 +1,18 @@
-//! Obstructions in front of a façade or above a roof: boxes with vertical sides, and a skyline that changes with the
-//! bearing.
+//! Obstructions in front of a façade or above a roof: boxes with vertical sides, the ground, and a skyline that changes
+//! with the bearing.
 //!
 //! | file | contents |
 //! | --- | --- |
-//! | `solid` | a box: its intersection with a ray, its edges, faces and outline as seen from a point |
-//! | `skyline` | altitude by bearing |
-//! | `face_light` | the luminance of a face |
-//! | `shading` | sunlit part of a rectangle past boxes |
+//! | `solid` | box: intersection with a ray, edges, faces and outline as seen from a point |
+//! | `skyline` | skyline: altitude by bearing |
+//! | `face_light` | luminance of a face |
+//! | `shading` | sunlit part of a rectangle behind boxes |
 //!
-//! Everything is in the world's frame (x east, y north, z up) about the room's own origin, in metres: boxes near enough
-//! to be seen differently from different points have a place, a skyline has only directions.
+//! All coordinates are in the world's axes (x east, y north, z up) relative to the room's origin, in metres. Boxes have
+//! a position, so that they are seen differently from different points; a skyline has only directions.
 //!
-//! Light on faces and on the ground comes from all that they see: sky, sun and each other. They reflect ρE/π alike in
-//! all directions. See [`crate::compute::sky::faces`].
+//! Faces and ground are lit by sky, sun and each other, and reflect diffusely with the luminance ρE/π. See
+//! [`crate::compute::sky::faces`].
 
 pub mod face_light;
 pub mod shading;
@@ -24,62 +24,63 @@ use glam::DVec3;
 use skyline::Skyline;
 use solid::{Face, Solid};
 
-/// Obstruction or ground that a direction meets.
+/// Obstruction or ground that is visible in a direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Seen {
-    /// The area below the skyline, of uniform luminance.
+    /// Area below the skyline by bearing, of uniform luminance.
     Skyline,
-    /// A face of a box.
+    /// Face of a box.
     Face {
         /// Index of the box.
         solid: usize,
-        /// Number of the face, see [`Solid::face`].
+        /// Number of the face, 0 … 5, see [`Solid::face`].
         face: usize,
-        /// Whether the middle of the sun's disc lights the point of the face.
+        /// Whether the visible point of the face is sunlit by the centre of the sun's disc.
         sunlit: bool,
     },
     /// The ground.
     Ground {
-        /// Whether the middle of the sun's disc lights the point of the ground.
+        /// Whether the visible point of the ground is sunlit by the centre of the sun's disc.
         sunlit: bool,
     },
 }
 
-/// The ground that boxes stand on or above.
+/// Ground with its luminance, which boxes change near to them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    /// Plane of the ground.
+    /// Plane of the ground with its coordinates.
     pub face: Face,
-    /// Light of the ground as far as boxes change it.
+    /// Luminance of the ground within `limits`, where boxes change it.
     pub light: FaceLight,
-    /// Limits of the part that boxes change, in the plane's coordinates. \[m\]
+    /// Limits of the area whose luminance boxes change, in the plane's coordinates. \[m\]
     pub limits: Limits,
-    /// Luminance beyond the limits, without the sun's own light. \[cd/m²\]
+    /// Luminance of the ground outside `limits`, without the part directly reflected from the sun. \[cd/m²\]
     pub open: f64,
 }
 
-/// Part of a plane as seen from a point.
+/// Face or ground as seen from a point, prepared for luminances in several directions.
 #[derive(Debug)]
 pub struct Plane<'a> {
     normal: DVec3,
     /// Axes of the plane's coordinates.
     axes: [DVec3; 2],
-    /// Distance from the point along the normal; `foot` holds the coordinates of the point. \[m\]
+    /// Distance of the plane from the point along the normal; `foot` holds the coordinates of the point in the plane.
+    /// \[m\]
     height: f64,
     foot: [f64; 2],
     light: &'a FaceLight,
-    /// Luminance that the sun adds. \[cd/m²\]
+    /// Luminance by directly reflected sunlight. \[cd/m²\]
     sun: f64,
-    /// Part of the light in which the last direction was found.
+    /// Index of the part of `light` in which the previous direction was found.
     last: usize,
 }
 
-/// Surface that is met from a point, prepared for several directions.
+/// Surface of an obstruction as seen from a point, prepared for luminances in several directions.
 #[derive(Debug)]
 pub enum Shown<'a> {
-    /// Luminance that does not depend on the direction. \[cd/m²\]
+    /// Uniform luminance, of a skyline for instance. \[cd/m²\]
     Even(f64),
-    /// A surface; for the ground with its light beyond the panels.
+    /// Face or ground with varying luminance; for the ground with its luminance outside the panels.
     Plane(Plane<'a>, Option<&'a Ground>),
 }
 
@@ -98,7 +99,8 @@ impl<'a> Plane<'a> {
 }
 
 impl Shown<'_> {
-    /// Returns the luminance in a direction that meets the surface, and its uncertainty. \[cd/m²\]
+    /// Returns the luminance of the surface in a direction (unit vector, world's axes) that meets it, and its
+    /// uncertainty. \[cd/m²\]
     pub fn luminance(&mut self, direction: DVec3) -> [f64; 2] {
         let (plane, ground) = match self {
             Self::Even(luminance) => return [*luminance, 0.0],
@@ -115,44 +117,46 @@ impl Shown<'_> {
 }
 
 impl Ground {
-    /// Whether boxes change the ground's light at a place.
+    /// Whether a point of the ground lies in the area whose luminance boxes change.
     fn holds(&self, [u, v]: [f64; 2]) -> bool {
         let [[a, b], [c, d]] = self.limits;
         (a..=b).contains(&u) && (c..=d).contains(&v)
     }
 }
 
-/// Boxes with the light on them, and a skyline.
+/// Obstructions with their luminances for one date and time: boxes, ground and skyline by bearing, in the world's axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Surroundings {
-    /// The boxes.
+    /// Boxes in front of the façade.
     pub solids: Vec<Solid>,
-    /// The building, or without one the room's own box: it blocks the sun from faces, and is never seen from inside.
+    /// Building, or without one the box of the room: it blocks the sun from faces, and is not visible from inside.
     pub building: Solid,
     /// Whether the building blocks the sun from the ground, too.
     pub shades_ground: bool,
-    /// The ground; `None` where it is black.
+    /// Ground with its luminance; `None` if it is black.
     pub ground: Option<Ground>,
-    /// Light of every face of every box.
+    /// Luminance of every face of every box.
     pub faces: Vec<[FaceLight; 6]>,
-    /// Direction towards the sun that lights faces; `None` where it lights none.
+    /// Direction towards the sun, world's axes; `None` if no face is sunlit.
     pub sun: Option<DVec3>,
-    /// Lines on faces at which the luminance may jump, beside the boxes' own edges: of shadows, and where faces meet.
+    /// Lines on faces, apart from edges of boxes, at which the luminance may be discontinuous: edges of shadows, and
+    /// lines where faces of overlapping boxes meet.
     pub lines: Vec<Line>,
-    /// Skyline: altitude of distant obstructions by bearing.
+    /// Skyline of distant obstructions by bearing; `None` without one.
     pub skyline: Option<Skyline>,
 }
 
-/// A line on one face or on two at which the luminance may jump.
+/// Line on one face or on two at which the luminance may be discontinuous.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Line {
-    /// Ends of the line. \[m\]
+    /// Ends of the line in the world's axes. \[m\]
     pub ends: [DVec3; 2],
     /// The two faces that the line lies on, equal for a line on one face.
     pub faces: [Face; 2],
 }
 
-/// Returns the nearest of some boxes that a ray enters: its index, the distance and the face.
+/// Returns the nearest of some boxes that a ray enters: index of the box, distance \[m\] and number of the face
+/// ([`Solid::face`]); `None` if it meets no box. `from`: start of the ray; `direction`: unit vector.
 pub fn first_hit<'a>(
     solids: impl Iterator<Item = (usize, &'a Solid)>,
     from: DVec3,
@@ -169,13 +173,13 @@ pub fn first_hit<'a>(
     nearest
 }
 
-/// Whether one of some boxes stands between a point and the sun.
+/// Whether one of some boxes hides the sun from a point.
 fn hidden<'a>(mut solids: impl Iterator<Item = &'a Solid>, point: DVec3, sun: DVec3) -> bool {
     solids.any(|solid| solid.enter(point, sun).is_some())
 }
 
 impl Surroundings {
-    /// Creates dark boxes and a skyline, above dark ground.
+    /// Creates boxes and a skyline with luminance 0 of all faces and of the ground.
     pub fn dark(solids: Vec<Solid>, skyline: Option<Skyline>) -> Self {
         Self {
             faces: solids.iter().map(|_| std::array::from_fn(|_| FaceLight::even(0.0))).collect(),
@@ -189,13 +193,15 @@ impl Surroundings {
         }
     }
 
-    /// Returns the obstruction or ground met in a direction; `None`: sky or ground of the open outside. Without a point
-    /// to see from, boxes do not count.
+    /// Returns the obstruction or ground that is visible from the point `eye` \[m\] in a direction (unit vector), both
+    /// in the world's axes; `None` for the sky or for ground without luminance data. Without `eye`, only the skyline
+    /// counts.
     pub fn seen(&self, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         self.seen_among(0..self.solids.len(), eye, direction)
     }
 
-    /// Returns [`Self::seen`] with only the given boxes, where no others can be met.
+    /// Returns the obstruction or ground that is visible in a direction like [`Self::seen`], considering only the boxes
+    /// with the given indices; the caller ensures that no other box can be met.
     pub fn seen_among(&self, boxes: impl Iterator<Item = usize>, eye: Option<DVec3>, direction: DVec3) -> Option<Seen> {
         if let Some(eye) = eye {
             let met = first_hit(boxes.map(|index| (index, &self.solids[index])), eye, direction);
@@ -217,18 +223,21 @@ impl Surroundings {
         self.skyline.as_ref().filter(|skyline| skyline.covers(direction)).map(|_| Seen::Skyline)
     }
 
-    /// Returns the distance of the ground in a direction, and the ground. \[m\]
+    /// Returns the distance from a point to the ground in a direction \[m\], and the ground; `None` for directions that
+    /// do not meet it.
     fn ground_along(&self, eye: DVec3, direction: DVec3) -> Option<(f64, &Ground)> {
         let ground = self.ground.as_ref().filter(|_| direction.z < 0.0)?;
         Some((((ground.face.origin.z - eye.z) / direction.z).max(0.0), ground))
     }
 
-    /// Returns the luminance of an obstruction or of the ground as met, and its uncertainty. \[cd/m²\]
+    /// Returns the luminance of the obstruction or ground `seen` from the point `eye` in a direction, and its
+    /// uncertainty. \[cd/m²\]
     pub fn luminance(&self, seen: Seen, eye: Option<DVec3>, direction: DVec3) -> [f64; 2] {
         self.shown(seen, eye).luminance(direction)
     }
 
-    /// Returns the surface met from a point, for evaluation in directions that meet nothing else.
+    /// Returns the surface `seen` from the point `eye`, prepared for luminances in neighbouring directions that meet
+    /// the same surface.
     pub fn shown(&self, seen: Seen, eye: Option<DVec3>) -> Shown<'_> {
         match (seen, eye) {
             (Seen::Skyline, _) => Shown::Even(self.skyline.as_ref().map_or(0.0, |skyline| skyline.luminance)),
@@ -244,14 +253,15 @@ impl Surroundings {
         }
     }
 
-    /// Whether the middle of the sun's disc lights a point of a face.
+    /// Whether a point of a face is sunlit by the centre of the sun's disc. `solid`: index of the box; `face`: number
+    /// of its face.
     pub fn sunlit(&self, solid: usize, face: usize, point: DVec3) -> bool {
         let Some(sun) = self.sun.filter(|_| self.faces[solid][face].sun > 0.0) else { return false };
         let others = self.solids.iter().enumerate().filter(|(other, _)| *other != solid).map(|(_, other)| other);
         !hidden(others.chain([&self.building]), point, sun)
     }
 
-    /// Whether the middle of the sun's disc lights a point of the ground.
+    /// Whether a point of the ground is sunlit by the centre of the sun's disc.
     fn sun_on_ground(&self, point: DVec3) -> bool {
         let lit = self.ground.as_ref().is_some_and(|ground| ground.light.sun > 0.0);
         let Some(sun) = self.sun.filter(|_| lit) else { return false };
@@ -259,7 +269,8 @@ impl Surroundings {
         !hidden(self.solids.iter().chain(building), point, sun)
     }
 
-    /// Returns segments at which the luminance may jump, as vectors from a point.
+    /// Returns the segments at which the luminance may be discontinuous as seen from the point `eye`: visible edges of
+    /// boxes and lines on faces, their ends as vectors from the point. \[m\]
     pub fn edges_from(&self, eye: DVec3) -> Vec<[DVec3; 2]> {
         let edges = self.solids.iter().flat_map(|solid| solid.visible_edges(eye));
         let turned = |face: &Face| face.normal.dot(eye - face.origin) > 0.0;
@@ -267,7 +278,7 @@ impl Surroundings {
         edges.chain(lines).map(|edge| edge.map(|p| p - eye)).collect()
     }
 
-    /// Returns the surroundings with all light multiplied by a factor.
+    /// Returns the obstructions with all luminances multiplied by a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
         scaled.faces.iter_mut().flatten().for_each(|light| light.scale(factor));

@@ -1,28 +1,30 @@
-//! Sunlit part of a rectangle past boxes: convex pieces with the shadows' edges as borders.
+//! Shadows of boxes on rectangles, and the sunlit part of a rectangle as convex pieces with the edges of shadows as
+//! borders.
 //!
-//! Shadows are those of the middle of the sun's disc.
+//! Shadows are those for the centre of the sun's disc.
 
 use super::solid::{Face, Solid};
 use crate::compute::polygon::{area, cut};
 use glam::{DVec2, DVec3};
 
-/// Share of the rectangle below which pieces are negligible.
+/// Share of a rectangle's area below which pieces are negligible.
 const NOTHING: f64 = 1e-12;
-/// Distance below which a point lies in a plane. \[m\] Rounding of coordinates of 10⁶ m, the largest allowed, is 1e-10
-/// m.
+/// Distance below which a point counts as in a plane. \[m\] Rounding of coordinates of 10⁶ m, the largest allowed, is
+/// 1e-10 m.
 const TOUCHING: f64 = 1e-9;
 
-/// Returns the convex shadow of a box on a plane in the plane's coordinates, counter-clockwise; fewer than three
-/// corners where there is none. `sun` points to the sun, in front of the plane.
+/// Returns the outline of the shadow of a box on the plane of a face, in the coordinates of the face \[m\]: convex,
+/// counter-clockwise; fewer than three corners if there is no shadow. `sun`: direction towards the sun, in front of the
+/// plane.
 pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
     let towards = face.normal.dot(sun);
     let height = |p: DVec3| face.normal.dot(p - face.origin);
     let corners = solid.corners();
-    // A box that only touches the plane from behind shades nothing.
+    // A box behind the plane casts no shadow on it.
     if corners.iter().all(|p| height(*p) < TOUCHING) {
         return Vec::new();
     }
-    // Only the part in front of the plane shades it: corners there, and where edges come through.
+    // Only the part in front of the plane casts a shadow: its corners, and the points at which edges cross the plane.
     let mut points: Vec<DVec3> = corners.iter().copied().filter(|p| height(*p) >= 0.0).collect();
     if points.len() < corners.len() {
         for i in 0..8_usize {
@@ -39,7 +41,7 @@ pub fn shadow(solid: &Solid, face: &Face, sun: DVec3) -> Vec<DVec2> {
     hull(projected.collect())
 }
 
-/// Returns the convex hull, counter-clockwise (Andrew's chains).
+/// Returns the convex hull of points, counter-clockwise (Andrew's algorithm).
 fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup_by(|a, b| a.distance(*b) < 1e-12);
@@ -64,7 +66,8 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
     lower
 }
 
-/// Subtracts a convex, counter-clockwise polygon from convex pieces; the remainder is convex pieces again.
+/// Returns convex pieces without the area of the convex, counter-clockwise polygon `hole`, again as convex pieces;
+/// those with an area below `least` are dropped.
 pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<DVec2>> {
     let mut left = Vec::with_capacity(pieces.len());
     for mut piece in pieces {
@@ -87,7 +90,8 @@ pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<D
     left
 }
 
-/// Returns the sunlit part of a face past boxes, in the face's coordinates; nothing where it turns away from the sun.
+/// Returns the sunlit part of a face behind boxes as convex pieces, in the coordinates of the face \[m\]; empty if the
+/// face is turned away from the sun. `sun`: direction towards the sun.
 pub fn lit_pieces<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<Vec<DVec2>> {
     if face.normal.dot(sun) <= 1e-9 {
         return Vec::new();
@@ -101,7 +105,8 @@ pub fn lit_pieces<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun:
     })
 }
 
-/// Returns the edges of the shadows of boxes on a face, as far as they lie on it.
+/// Returns the edges of the shadows of boxes on a face, clipped to the face, by their ends in the world's axes. \[m\]
+/// `sun`: direction towards the sun.
 pub fn shadow_edges<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, sun: DVec3) -> Vec<[DVec3; 2]> {
     if face.normal.dot(sun) <= 1e-6 {
         return Vec::new();
@@ -116,7 +121,7 @@ pub fn shadow_edges<'a>(face: &Face, solids: impl Iterator<Item = &'a Solid>, su
                 let [low, high] = face.limits[axis];
                 let (p, q) = (from[axis], to[axis]);
                 if (q - p).abs() < 1e-12 {
-                    // On the rim itself a shadow begins or ends with the face.
+                    // An edge of the shadow on the face's border is not a discontinuity of the face.
                     if p <= low + 1e-9 || p >= high - 1e-9 {
                         last = -1.0;
                     }

@@ -1,20 +1,22 @@
-//! A skyline whose altitude changes with the bearing.
+//! Skyline of distant obstructions whose altitude changes with the compass bearing.
 
 use crate::compute::sweep::rule;
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Altitudes between which the skyline is linear in the bearing, all round.
+/// Skyline by bearing: altitude of distant obstructions over the full circle, linear in the bearing between its
+/// corners, with a uniform luminance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skyline {
-    /// Bearing and altitude of every corner, bearings rising within one turn. \[rad\]
+    /// Compass bearing and altitude of every corner, bearings rising within one turn. \[rad\]
     knots: Vec<[f64; 2]>,
     /// Luminance of the area below the skyline. \[cd/m²\]
     pub luminance: f64,
 }
 
 impl Skyline {
-    /// Creates a skyline from compass bearings and altitudes \[rad\], in any order; `None` without any.
+    /// Creates a skyline from the compass bearings and altitudes \[rad\] of its corners, in any order, and a luminance
+    /// \[cd/m²\]; `None` without corners.
     pub fn new(knots: impl IntoIterator<Item = [f64; 2]>, luminance: f64) -> Option<Self> {
         let turned = knots.into_iter().map(|[bearing, altitude]| [bearing.rem_euclid(2.0 * PI), altitude]);
         let mut knots: Vec<[f64; 2]> = turned.collect();
@@ -22,17 +24,17 @@ impl Skyline {
         (!knots.is_empty()).then_some(Self { knots, luminance })
     }
 
-    /// Returns the skyline with another luminance.
+    /// Returns the skyline with another luminance. \[cd/m²\]
     pub fn with_luminance(self, luminance: f64) -> Self {
         Self { luminance, ..self }
     }
 
-    /// Whether another skyline has the same corners, whatever its luminance.
+    /// Whether another skyline has the same corners, independent of its luminance.
     pub fn same_shape(&self, other: &Self) -> bool {
         self.knots == other.knots
     }
 
-    /// Returns the altitude at a compass bearing. \[rad\]
+    /// Returns the altitude of the skyline at a compass bearing. \[rad\]
     pub fn altitude(&self, bearing: f64) -> f64 {
         let count = self.knots.len();
         let bearing = bearing.rem_euclid(2.0 * PI);
@@ -43,29 +45,31 @@ impl Skyline {
         if width > 0.0 { a[1] + (b[1] - a[1]) * (along / width).min(1.0) } else { b[1] }
     }
 
-    /// Returns the altitude of a direction above the skyline, negative below it. \[rad\]
+    /// Returns the altitude of a direction (unit vector, world's axes) relative to the skyline, negative below it.
+    /// \[rad\]
     pub fn above(&self, direction: DVec3) -> f64 {
         direction.z.clamp(-1.0, 1.0).asin() - self.altitude(direction.x.atan2(direction.y))
     }
 
-    /// Whether a direction lies between horizon and skyline.
+    /// Whether a direction (world's axes) lies between the horizon and the skyline.
     pub fn covers(&self, direction: DVec3) -> bool {
         direction.z >= 0.0 && self.above(direction) < 0.0
     }
 
-    /// Returns the highest altitude of the skyline. \[rad\]
+    /// Returns the maximum altitude of the skyline. \[rad\]
     pub fn highest(&self) -> f64 {
         self.knots.iter().map(|knot| knot[1]).fold(0.0, f64::max)
     }
 
-    /// Returns the directions of the corners.
+    /// Returns the directions of the skyline's corners as unit vectors in the world's axes.
     pub fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.knots.iter().map(|&[bearing, altitude]| direction(bearing, altitude))
     }
 
-    /// Returns the share of a small disc about a direction that lies above the skyline and the horizon, 0 … 1; corners
-    /// and steps of the skyline within the disc count. `radius` \[rad\]. Heights are counted vertically in the disc's
-    /// plane, good to the square of its radius.
+    /// Returns the share of a small disc (of the sun) that lies above the skyline and the horizon, 0 … 1, with corners
+    /// and steps of the skyline within the disc. `direction`: of the disc's centre, world's axes; `radius`: angular
+    /// radius \[rad\]. Heights are counted vertically in the disc's plane; the error is of the order of the square of
+    /// the radius.
     pub fn free_share(&self, direction: DVec3, radius: f64) -> f64 {
         /// Number of Gauss points between corners of the skyline. Chosen; held by the test
         /// `a_disc_is_cut_by_every_corner_and_step`, which compares with segments of the disc to 2e-3.
@@ -73,7 +77,7 @@ impl Skyline {
         let sideways = DVec3::new(direction.y, -direction.x, 0.0).try_normalize().unwrap_or(DVec3::X);
         let middle = direction.x.atan2(direction.y);
         let cos = direction.truncate().length();
-        // Columns at radius·sin t, and among them those at which corners stand.
+        // Columns of the disc at radius · sin t, with additional knots at the skyline's corners.
         let mut knots = vec![-FRAC_PI_2, 0.0, FRAC_PI_2];
         for [bearing, _] in &self.knots {
             let from = bearing - middle;
@@ -95,7 +99,7 @@ impl Skyline {
                 share += weight * (pair[1] - pair[0]) * free * t.cos() * t.cos();
             }
         }
-        // Whole and hidden discs without the rule's rounding.
+        // Exactly 1 for a fully visible and 0 for a hidden disc, without the rounding of the quadrature.
         let share = share * 2.0 / PI;
         if share > 1.0 - 1e-9 {
             1.0
@@ -106,8 +110,8 @@ impl Skyline {
         }
     }
 
-    /// Returns the upward normal of the great circle that the skyline follows about a bearing: on the scale of the
-    /// sun's disc the skyline is straight except at corners.
+    /// Returns the upward normal (world's axes) of the great circle that approximates the skyline about a bearing
+    /// \[rad\]: at the size of the sun's disc the skyline is straight except at corners.
     pub fn plane(&self, bearing: f64) -> DVec3 {
         /// Angle to both sides of the bearing over which the skyline counts as straight. \[rad\] Chosen: less than half
         /// of the sun's radius of 0.2665°; held by the test `its_plane_parts_above_from_below`.

@@ -1,51 +1,52 @@
-//! A box with vertical sides, rotated about the vertical.
+//! Boxes with vertical sides, rotated about the vertical, and their rectangular faces.
 
 use glam::{DVec2, DVec3};
 
-/// A box with vertical sides.
+/// Box with vertical sides, rotated about the vertical: an obstruction or a building.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Solid {
     centre: DVec2,
     half: DVec2,
     z: [f64; 2],
-    /// Cosine and sine of the rotation.
+    /// Cosine and sine of the rotation, counter-clockwise seen from above.
     turn: [f64; 2],
 }
 
-/// One face of a box: a rectangle.
+/// Rectangular face of a box, or a rectangle on the ground or of an aperture, with coordinates in its plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Face {
-    /// Point of the face's plane from which `u` and `v` are counted.
+    /// Point of the face's plane with the coordinates 0, 0. \[m\]
     pub origin: DVec3,
-    /// Outward unit normal.
+    /// Outward unit normal of the face.
     pub normal: DVec3,
-    /// First axis of the plane, of unit length.
+    /// Unit vector along the first axis of the coordinates in the plane.
     pub u: DVec3,
-    /// Second axis of the plane, of unit length.
+    /// Unit vector along the second axis of the coordinates in the plane.
     pub v: DVec3,
-    /// Lower and upper limit along both axes. \[m\]
+    /// Lower and upper limit of the face along both axes of its coordinates. \[m\]
     pub limits: [[f64; 2]; 2],
 }
 
 impl Face {
-    /// Returns the point of the plane with the given two coordinates.
+    /// Returns the point with the coordinates `u` and `v` in the plane of the face. \[m\]
     pub fn point(&self, u: f64, v: f64) -> DVec3 {
         self.origin + u * self.u + v * self.v
     }
 
-    /// Returns the coordinates of a point of the plane.
+    /// Returns the two coordinates of a point in the plane of the face. \[m\]
     pub fn coordinates(&self, point: DVec3) -> [f64; 2] {
         let from = point - self.origin;
         [from.dot(self.u), from.dot(self.v)]
     }
 
-    /// Returns the corners in order round the face.
+    /// Returns the four corners of the face in order. \[m\]
     pub fn corners(&self) -> [DVec3; 4] {
         let [[a, b], [c, d]] = self.limits;
         [self.point(a, c), self.point(b, c), self.point(b, d), self.point(a, d)]
     }
 
-    /// Returns the segment in which two faces cross; `None` where they do not meet or lie in parallel planes.
+    /// Returns the ends of the segment in which two faces intersect; `None` if they do not meet or lie in parallel
+    /// planes. \[m\]
     pub fn meets(&self, other: &Self) -> Option<[DVec3; 2]> {
         let height = |p: DVec3| self.normal.dot(p - self.origin);
         let corners = other.corners();
@@ -58,7 +59,7 @@ impl Face {
         self.clip([from, to])
     }
 
-    /// Returns the part of a segment in the face's plane that lies on the face.
+    /// Returns the part of a segment in the plane of the face that lies on the face; `None` if there is none.
     fn clip(&self, [from, to]: [DVec3; 2]) -> Option<[DVec3; 2]> {
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
         let (p, q) = (self.coordinates(from), self.coordinates(to));
@@ -87,7 +88,7 @@ const TOUCH: f64 = 1e-9;
 const BEHIND: f64 = 1e-7;
 
 impl Solid {
-    /// Creates a box from two opposite corners before its rotation by `turn` \[rad\] about the vertical through its
+    /// Creates a box from two opposite corners \[m\], then rotated by `turn` \[rad\] about the vertical through its
     /// centre, counter-clockwise seen from above.
     pub fn new(from: DVec3, to: DVec3, turn: f64) -> Self {
         let (low, high) = (from.min(to), from.max(to));
@@ -100,37 +101,39 @@ impl Solid {
         }
     }
 
-    /// Returns the box rotated about the vertical through the origin; cosine and sine of the angle.
+    /// Returns the box rotated about the vertical through the origin of coordinates. Argument: cosine and sine of the
+    /// angle, counter-clockwise seen from above.
     pub fn turned(self, [cos, sin]: [f64; 2]) -> Self {
         let by = DVec2::new(cos, sin);
         let turn = by.rotate(DVec2::from_array(self.turn));
         Self { centre: by.rotate(self.centre), turn: turn.to_array(), ..self }
     }
 
-    /// Returns a vector in the box's own axes.
+    /// Converts a vector from the outer axes to the axes of the box.
     fn local(&self, v: DVec3) -> DVec3 {
         let [cos, sin] = self.turn;
         DVec3::new(cos * v.x + sin * v.y, cos * v.y - sin * v.x, v.z)
     }
 
-    /// Returns a vector of the box's own axes in the outer axes.
+    /// Converts a vector from the axes of the box to the outer axes.
     fn world(&self, v: DVec3) -> DVec3 {
         let [cos, sin] = self.turn;
         DVec3::new(cos * v.x - sin * v.y, sin * v.x + cos * v.y, v.z)
     }
 
-    /// Returns the middle of the box.
+    /// Returns the centre of the box. \[m\]
     pub fn middle(&self) -> DVec3 {
         self.centre.extend(0.5 * (self.z[0] + self.z[1]))
     }
 
-    /// Returns the distance from the middle to a corner. \[m\]
+    /// Returns the distance from the centre of the box to its corners. \[m\]
     pub fn radius(&self) -> f64 {
         self.half.extend(0.5 * (self.z[1] - self.z[0])).length()
     }
 
-    /// Returns the distance at which a ray enters, and the face that it enters through; 0 where it starts inside. A box
-    /// that is only touched, and one that lies behind, do not count.
+    /// Returns the distance at which a ray enters the box \[m\], 0 if it starts inside, and the number of the face
+    /// through which it enters ([`Self::face`]). `None` if the ray misses or only touches the box, or if the box lies
+    /// behind its start. `direction`: unit vector.
     pub fn enter(&self, from: DVec3, direction: DVec3) -> Option<(f64, usize)> {
         let start = self.local(from - self.centre.extend(0.0));
         let along = self.local(direction);
@@ -155,8 +158,9 @@ impl Solid {
         (far > BEHIND && far - near.max(0.0) > TOUCH).then_some((near.max(0.0), face))
     }
 
-    /// Returns the distances at which a horizontal ray enters and leaves the box's outline, above, below or beside it,
-    /// and the face that it enters through; `None` where it only touches or passes by. `along`: of unit length.
+    /// Returns the distances at which a horizontal ray enters and leaves the outline of the box in plan \[m\], at any
+    /// height, and the number of the face through which it enters; `None` if it misses or only touches the outline.
+    /// `along`: unit vector.
     pub fn passage(&self, from: DVec2, along: DVec2) -> Option<([f64; 2], usize)> {
         let start = self.local((from - self.centre).extend(0.0));
         let along = self.local(along.extend(0.0));
@@ -179,45 +183,46 @@ impl Solid {
         (far - near > TOUCH).then_some(([near, far], face))
     }
 
-    /// Returns the heights of the box's foot and top. \[m\]
+    /// Returns the heights of the box's lower and upper face, z. \[m\]
     pub fn heights(&self) -> [f64; 2] {
         self.z
     }
 
-    /// Returns the distance from the middle to a corner of the box's outline. \[m\]
+    /// Returns the horizontal distance from the centre of the box to its corners. \[m\]
     pub fn outline_radius(&self) -> f64 {
         self.half.length()
     }
 
-    /// Returns the part of the box above a height \[m\], without any height where the box lies below.
+    /// Returns the part of the box above a height \[m\]; its height is 0 if the box lies below.
     pub fn above(&self, height: f64) -> Self {
         Self { z: self.z.map(|z| z.max(height)), ..*self }
     }
 
-    /// Returns the box extended downwards to a height, if it ends above. \[m\]
+    /// Returns the box extended downwards to a height \[m\] if its lower face is above it.
     pub fn down_to(&self, height: f64) -> Self {
         Self { z: [self.z[0].min(height), self.z[1]], ..*self }
     }
 
-    /// Whether a point lies inside.
+    /// Whether a point lies inside the box.
     pub fn holds(&self, point: DVec3) -> bool {
         let own = self.local(point - self.centre.extend(0.0));
         own.x.abs() < self.half.x && own.y.abs() < self.half.y && own.z > self.z[0] && own.z < self.z[1]
     }
 
-    /// Returns a corner by three bits: x, y, z.
+    /// Returns the corner given by three bits, for the sides along x, y and z of the box.
     fn corner(&self, bits: usize) -> DVec3 {
         let side = |bit: usize, half: f64| if bits >> bit & 1 == 1 { half } else { -half };
         self.centre.extend(0.0)
             + self.world(DVec3::new(side(0, self.half.x), side(1, self.half.y), self.z[bits >> 2 & 1]))
     }
 
-    /// Returns all eight corners.
+    /// Returns all eight corners of the box. \[m\]
     pub fn corners(&self) -> [DVec3; 8] {
         std::array::from_fn(|bits| self.corner(bits))
     }
 
-    /// Returns a face by its number; 0 … 5 look along −x, +x, −y, +y, −z, +z of the box's own axes.
+    /// Returns the face with this number; the outward normals of the faces 0 … 5 are −x, +x, −y, +y, −z, +z of the
+    /// box's axes.
     pub fn face(&self, number: usize) -> Face {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| self.world(axis));
         let sign = if number % 2 == 1 { 1.0 } else { -1.0 };
@@ -230,13 +235,13 @@ impl Solid {
         }
     }
 
-    /// Whether a face is turned to a point.
+    /// Whether a face is turned towards a point.
     fn faces(&self, number: usize, eye: DVec3) -> bool {
         let face = self.face(number);
         face.normal.dot(eye - face.origin) > 0.0
     }
 
-    /// Returns every edge with the two faces that meet in it.
+    /// Returns every edge of the box with the numbers of the two faces that meet in it.
     fn edges(&self) -> [([DVec3; 2], [usize; 2]); 12] {
         std::array::from_fn(|index| {
             let (axis, place) = (index / 4, index % 4);
@@ -247,14 +252,15 @@ impl Solid {
         })
     }
 
-    /// Returns the edges of faces that are turned to a point.
+    /// Returns the edges of the faces that are turned towards the point `eye`, by their ends. \[m\]
     pub fn visible_edges(&self, eye: DVec3) -> impl Iterator<Item = [DVec3; 2]> + use<> {
         let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
         self.edges().into_iter().filter(move |(_, [a, b])| turned[*a] || turned[*b]).map(|(ends, _)| ends)
     }
 
-    /// Returns the normals of the planes through a point that hold the box: directions d with n·d > 0 for all of them
-    /// meet it. Empty where the point lies inside, or on a face with nothing of the box in front of it.
+    /// Returns the normals n of the planes through the point `eye` that bound the box as seen from there: directions d
+    /// with n·d > 0 for all of them meet it. Empty if the point lies inside, or on a face with no part of the box in
+    /// front of it.
     pub fn cone(&self, eye: DVec3) -> Vec<DVec3> {
         let turned: [bool; 6] = std::array::from_fn(|number| self.faces(number, eye));
         let middle = self.middle() - eye;
@@ -262,7 +268,7 @@ impl Solid {
         outline
             .filter_map(|([a, b], _)| {
                 let normal = (a - eye).cross(b - eye);
-                // An edge that points at the eye has no plane with it but that of rounding.
+                // An edge that points at the viewpoint defines no plane with it.
                 let least = 1e-9 * (a - eye).length() * (b - eye).length();
                 let normal = normal.try_normalize().filter(|_| normal.length() > least)?;
                 Some(if normal.dot(middle) >= 0.0 { normal } else { -normal })
@@ -270,7 +276,8 @@ impl Solid {
             .collect()
     }
 
-    /// Returns the smallest gap between the bounding boxes of the box and of some points, along the world's axes. \[m\]
+    /// Returns the distance between the axis-parallel bounding boxes of this box and of some points; 0 if they overlap.
+    /// \[m\]
     pub fn gap_to(&self, points: &[DVec3]) -> f64 {
         let bounds = |points: &[DVec3]| {
             let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
@@ -280,12 +287,12 @@ impl Solid {
         (c - b).max(a - d).max(DVec3::ZERO).length()
     }
 
-    /// Whether two boxes overlap by more than `slack`. \[m\]
+    /// Whether two boxes overlap by more than `slack` \[m\] along every axis.
     pub fn overlaps(&self, other: &Self, slack: f64) -> bool {
         if self.z[0].max(other.z[0]) >= self.z[1].min(other.z[1]) - slack {
             return false;
         }
-        // Two rectangles are apart if one of their four axes parts them.
+        // Two rectangles are disjoint if their projections on one of their four axes are (separating axes).
         let own = |solid: &Self| [0b000, 0b001, 0b011, 0b010].map(|bits| solid.corner(bits).truncate());
         let axes = |solid: &Self| {
             let [cos, sin] = solid.turn;

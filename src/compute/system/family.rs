@@ -2,27 +2,29 @@
 
 use super::measure::OpticalModel;
 
-/// Error of a description without optical model: what is wrong and what would be right.
+/// Reason why no optical model can be created from a system description: text that says what is wrong and what would be
+/// right.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct OpticalModelError(pub String);
 
 impl OpticalModelError {
-    /// Creates the error from the cause.
+    /// Creates the error from the message of its cause.
     pub fn because(error: impl std::fmt::Display) -> Self {
         Self(error.to_string())
     }
 }
 
-/// Closed polygons (outward, upward), their first points not repeated. \[m\]
+/// Closed polygons of (outward, upward) points, the first point not repeated at the end. \[m\]
 pub type Polygons = Vec<Vec<[f64; 2]>>;
 
-/// Family of systems by geometry and material. States are given by keys that [`Family::states`] lists.
+/// Family of described systems (e.g. venetian blinds), each by geometry and material. States are given by the keys that
+/// [`Family::states`] lists.
 pub trait Family {
     /// Returns the key of the family in files and in the catalogue.
     fn word(&self) -> &'static str;
 
-    /// Returns the method by which its data are computed, in words with the source.
+    /// Returns the method by which the family's data are computed, as text with its source.
     fn method(&self) -> &'static str;
 
     /// Returns the name of the face of the description that looks into the room.
@@ -30,19 +32,21 @@ pub trait Family {
         "room side of the description"
     }
 
-    /// Returns the keys of the states: angles in degrees as shortest decimals; one empty key for a system without
-    /// states.
+    /// Returns the keys of the system's states: tilt angles in degrees as shortest decimals; one empty key for a system
+    /// without states.
     fn states(&self) -> Vec<String> {
         vec![String::new()]
     }
 
-    /// Returns the period of its visible structure \[m\]; `None` for plain sheets and stacks.
+    /// Returns the period of the system's visible structure, e.g. the pitch of slats \[m\]; `None` for plain sheets and
+    /// stacks.
     fn structure(&self) -> Option<f64> {
         None
     }
 
-    /// Returns one period of a state in section, for drawings. A slat without thickness goes there and back on the same
-    /// line. Empty for geometry that encloses nothing, and for a stack, whose layers only its caller can find.
+    /// Returns the vertical section of one period of the system in the given state, for drawings. The polygon of a slat
+    /// without thickness runs forth and back on the same line. Empty for geometry that encloses nothing, and for a
+    /// stack, whose layers only its caller can find.
     fn drawing(&self, state: &str) -> Polygons;
 
     /// Returns the vertical distance at which the polygons of the drawing repeat. \[m\]
@@ -50,27 +54,27 @@ pub trait Family {
         self.structure()
     }
 
-    /// Whether the drawing shows the principle rather than the described lengths.
+    /// Whether the drawing shows the principle of the system, not its described dimensions.
     fn is_schematic(&self) -> bool {
         false
     }
 
-    /// Creates the optical model of a state.
+    /// Creates the optical model of the system in the given state.
     ///
     /// # Errors
     /// Returns an error if the geometry encloses nothing, if values are impossible, or for a stack.
     fn optical_model(&self, state: &str) -> Result<Box<dyn OpticalModel>, OpticalModelError>;
 }
 
-/// Height of the piece of a plain sheet that is drawn. \[m\] Chosen: affects drawings only, no figure.
+/// Height of the piece of a plain sheet in drawings. \[m\] Chosen: affects drawings only, no figure.
 pub(super) const PIECE: f64 = 0.1;
 
-/// Returns the rectangle between two corners.
+/// Returns the polygon of the rectangle between its lower and its upper corner (outward, upward).
 pub(super) fn rectangle(low: [f64; 2], high: [f64; 2]) -> Vec<[f64; 2]> {
     vec![low, [high[0], low[1]], high, [low[0], high[1]]]
 }
 
-/// Returns the key of the state at an angle \[rad\]: degrees as shortest decimal, free of the last digits that the
+/// Returns the key of the state at a tilt angle \[rad\]: degrees as shortest decimal, without the last digits that the
 /// conversion adds.
 pub fn state_key(angle: f64) -> String {
     let degrees = (angle.to_degrees() * 1e9).round() / 1e9;

@@ -3,8 +3,8 @@
 //!
 //! Every family implements the same interface ([`Family`]): its keys, states and structure, a drawing of its section,
 //! and an [`OpticalModel`], from which the virtual goniophotometer ([`measure`]) computes data. A family is added by a
-//! module of its own, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; its keys in system files are in
-//! `formats::system_toml`.
+//! separate module, its kind in [`SystemKind`] and its arm in [`SystemKind::family`]; the keys of its system files are
+//! in `formats::system_toml`.
 
 pub mod clear;
 mod family;
@@ -27,14 +27,14 @@ use sheets::{Diffuser, Perforated, Woven};
 use slats::Venetian;
 use stack::Layer;
 
-/// Described system: name, description, geometry and material.
+/// System described by geometry and material (content of a `.system.toml` file), with its product name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SystemDescription {
     /// Product name.
     pub name: String,
     /// Description in free text.
     pub description: String,
-    /// Geometry and material.
+    /// Geometry and material of the system, by its kind.
     pub kind: SystemKind,
     /// Whether the system is rotated by 90° about the normal, so that horizontal slats become vertical louvres: the
     /// upward direction then points to the right as seen from outside.
@@ -44,28 +44,28 @@ pub struct SystemDescription {
 /// Kinds of systems that can be computed.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SystemKind {
-    /// Endless array of slats.
+    /// Venetian blind or louvres: endless array of horizontal slats.
     Venetian(Venetian),
-    /// Sheet with plane cuts.
+    /// Laser-cut panel: clear sheet with plane cuts that reflect totally.
     LaserCutPanel(CutPanel),
-    /// Sheet with prisms on one face.
+    /// Prismatic sheet: clear sheet with prisms on one face.
     Prismatic(Prisms),
-    /// Profiles of clear material between two panes.
+    /// Light-redirecting glass: profiles of clear material between two panes.
     RedirectingGlass(RedirectingGlass),
-    /// Plane-parallel panes.
+    /// Glazing of equal plane-parallel panes.
     Pane(PaneStack),
-    /// Scattering sheet.
+    /// Diffuser: sheet that scatters light.
     Diffuser(Diffuser),
-    /// Fabric of yarns.
+    /// Woven screen: fabric of yarns with openings.
     Woven(Woven),
     /// Opaque sheet with holes: perforated and expanded metal, grids.
     Perforated(Perforated),
-    /// Layers from outside to inside.
+    /// Stack of layers, one behind the other, from outside to inside.
     Stack(Vec<Layer>),
 }
 
 impl SystemKind {
-    /// Returns the family of the system.
+    /// Returns the interface of the system's family: states, drawing and optical model.
     pub fn family(&self) -> &dyn Family {
         match self {
             Self::Venetian(blind) => blind,
@@ -82,17 +82,18 @@ impl SystemKind {
 }
 
 impl SystemDescription {
-    /// Returns the family of the system.
+    /// Returns the interface of the system's family: states, drawing and optical model.
     pub fn family(&self) -> &dyn Family {
         self.kind.family()
     }
 
-    /// Returns the keys of the states; one empty key for a system without states.
+    /// Returns the keys of the system's states (e.g. slat angles in degrees); one empty key for a system without
+    /// states.
     pub fn states(&self) -> Vec<String> {
         self.family().states()
     }
 
-    /// Creates the optical model of one state of a system that needs no other files.
+    /// Creates the optical model of the system in the state with key `state`, if it needs no other files.
     ///
     /// # Errors
     /// Returns an error for an unknown state, for geometry that encloses nothing, and for a stack, whose layers only

@@ -1,4 +1,5 @@
-//! Many indicatrices on the same cells, each kept as few numbers and restored on request.
+//! Wavelet compression of many indicatrices on the same emergent cells: each is stored as few numbers and restored on
+//! request.
 
 use super::hierarchy::Hierarchy;
 use super::quantise::{Criterion, QuantisedRow, quantise, step_factors};
@@ -8,37 +9,37 @@ use rayon::prelude::*;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum number of cells of an indicatrix in compact form, about 0.4° wide: preparing the transforms takes time and
-/// memory. Chosen: limit of input; more cells are refused.
+/// Maximum number of cells of a compressed indicatrix, about 0.4° wide, because the preparation of the transforms takes
+/// time and memory. Chosen: limit of input; more cells are refused.
 pub const MOST_CELLS: usize = 1 << 17;
 
-/// Reason why indicatrices have no compact form.
+/// Error of indicatrices that cannot be compressed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum CompactError {
-    /// Number of cells above [`MOST_CELLS`].
+    /// More cells than [`MOST_CELLS`].
     #[error("indicatrices of {0} cells (allowed: {MOST_CELLS})")]
     Cells(usize),
-    /// Threshold out of range.
+    /// Threshold of the error outside the allowed range.
     #[error("a threshold of {0} (allowed: 1e-6 to below 1)")]
     Threshold(f64),
-    /// Value that is negative or not finite.
+    /// Luminance coefficient that is negative or not finite.
     #[error("indicatrix {row} holds the value {value}; only finite values from 0 up have a compact form")]
     Value {
-        /// Number of the indicatrix.
+        /// Index of the indicatrix.
         row: usize,
-        /// Rejected value.
+        /// Rejected luminance coefficient. \[1/sr\]
         value: f64,
     },
 }
 
-/// Transform with its step factors.
+/// Wavelet transform with the factors of its quantisation steps.
 #[derive(Debug)]
 struct Prepared {
     transform: Transform,
     factors: Vec<f64>,
 }
 
-/// Packed indicatrix: a list of (gap, level) in variable-length numbers.
+/// Compressed indicatrix: its coefficients as a list of (gap, level) in variable-length numbers.
 #[derive(Debug, Clone, PartialEq)]
 struct Packed {
     order: Order,
@@ -48,18 +49,19 @@ struct Packed {
     list: Box<[u8]>,
 }
 
-/// Transforms and weights that all rows on the same cells share.
+/// Wavelet transforms and weights that restore compressed indicatrices; shared by all indicatrices on the same cells.
 #[derive(Debug, Clone)]
 pub struct RowDecoder {
     basis: RingBasis,
     weights: Arc<[f64]>,
-    /// Tenths of the exponent by which steps follow the support of a wavelet.
+    /// Exponent β of the dependence of quantisation steps on the support of a wavelet, in tenths.
     exponent: u8,
     prepared: [Option<Arc<Prepared>>; 3],
 }
 
 impl RowDecoder {
-    /// Creates a decoder for rows of the given orders.
+    /// Creates a decoder for indicatrices on the cells of `basis` with wavelets of the given orders. `exponent`:
+    /// exponent β of the quantisation steps, in tenths.
     pub fn new(basis: RingBasis, exponent: u8, orders: impl IntoIterator<Item = Order>) -> Self {
         let mut all = [None, None, None];
         for order in orders {
@@ -68,18 +70,18 @@ impl RowDecoder {
         Self { weights: basis.projected_solid_angles().into(), basis, exponent, prepared: all }
     }
 
-    /// Returns the cells of the rows.
+    /// Returns the basis of the emergent cells of the indicatrices.
     pub const fn basis(&self) -> &RingBasis {
         &self.basis
     }
 
-    /// Returns the transform of an order; `None` if the decoder was created without it.
+    /// Returns the wavelet transform of an order; `None` if the decoder was created without it.
     pub fn transform(&self, order: Order) -> Option<&Transform> {
         self.prepared[order as usize].as_ref().map(|prepared| &prepared.transform)
     }
 
-    /// Restores the indicatrix of quantised coefficients. \[1/sr\] `None` when they are not of these cells and orders,
-    /// or beyond the values that are ever written.
+    /// Returns the luminance coefficients of an indicatrix, restored from its quantised wavelet coefficients. \[1/sr\]
+    /// `None` if these do not belong to the cells and orders of the decoder, or are outside the range of valid files.
     pub fn row(&self, order: Order, row: &QuantisedRow) -> Option<Vec<f64>> {
         self.fits(order, row).then(|| self.restore(order, row).0)
     }
@@ -99,20 +101,21 @@ impl RowDecoder {
     }
 }
 
-/// Indicatrices in compact form.
+/// Indicatrices on the same emergent cells, compressed by wavelets, with exact τ.
 pub struct CompactRows {
     decoder: RowDecoder,
     rows: Vec<Packed>,
-    /// Indicatrix restored last: pictures and point queries request the same one repeatedly.
+    /// Indicatrix that was restored last, because pictures and point queries request the same one repeatedly.
     last: Mutex<Option<(usize, Arc<[f64]>)>>,
 }
 
-/// Orders in the sequence of their numbers in files, which never change.
+/// Orders of wavelets in the sequence of their numbers in files, which never changes.
 pub const ORDERS: [Order; 3] = [Order::Constant, Order::Linear, Order::Quadratic];
 
 impl CompactRows {
-    /// Compresses rows of values in 1/sr, one value per cell of `basis`. Of the three orders each row takes the one
-    /// that is smallest by an estimate of its entropy.
+    /// Compresses `count` indicatrices. `row`: returns the luminance coefficients of an indicatrix by index, one per
+    /// cell of `basis` \[1/sr\]; `criterion`: allowed error. For each indicatrix the wavelet order with the smallest
+    /// estimated size is used.
     ///
     /// # Errors
     /// Returns an error if a value is below 0 or not finite, if the threshold is out of range, or if there are more
@@ -156,15 +159,15 @@ impl CompactRows {
         Ok(Self { decoder, rows, last: Mutex::new(None) })
     }
 
-    /// Creates compact rows from quantised rows, as a file holds them. `None` when a row does not fit the decoder, or
-    /// holds numbers that [`Self::compress`] never writes.
+    /// Creates compressed indicatrices from the order and the quantised coefficients of each, as read from a file.
+    /// `None` if one of them does not fit the decoder, or contains numbers outside the range of valid files.
     pub fn from_rows(decoder: RowDecoder, rows: Vec<(Order, QuantisedRow)>) -> Option<Self> {
         let fits = rows.iter().all(|(order, row)| decoder.fits(*order, row));
         let packed = || rows.iter().map(|(order, row)| pack(*order, row)).collect();
         fits.then(|| Self { rows: packed(), decoder, last: Mutex::new(None) })
     }
 
-    /// Returns the cells of the rows.
+    /// Returns the basis of the emergent cells of the indicatrices.
     pub fn basis(&self) -> &RingBasis {
         &self.decoder.basis
     }
@@ -179,40 +182,42 @@ impl CompactRows {
         self.rows.is_empty()
     }
 
-    /// Returns the tenths of the exponent by which steps follow the support of a wavelet.
+    /// Returns the exponent β of the dependence of quantisation steps on the support of a wavelet, in tenths.
     pub const fn exponent(&self) -> u8 {
         self.decoder.exponent
     }
 
-    /// Returns ∫q cosθ dω of an indicatrix, as it was before compression.
+    /// Returns τ = ∫q cosθ dω of the indicatrix with index `row`, exactly as before compression.
     pub fn tau(&self, row: usize) -> f64 {
         self.rows[row].tau
     }
 
-    /// Returns the quantised coefficients of an indicatrix.
+    /// Returns the wavelet order and the quantised coefficients of the indicatrix with index `row`.
     pub fn quantised(&self, row: usize) -> (Order, QuantisedRow) {
         let packed = &self.rows[row];
         (packed.order, unpack(packed, self.decoder.basis.len()))
     }
 
-    /// Returns the transform of an order; `None` if no row uses it.
+    /// Returns the wavelet transform of an order; `None` if no indicatrix uses it.
     pub fn transform(&self, order: Order) -> Option<&Transform> {
         self.decoder.transform(order)
     }
 
-    /// Restores the indicatrix: not negative, its τ to rounding. \[1/sr\]
+    /// Returns the luminance coefficients of the indicatrix with index `row`, restored: not negative, with its τ to
+    /// rounding. \[1/sr\]
     pub fn row(&self, row: usize) -> Vec<f64> {
         self.restored(row).0
     }
 
-    /// Restores the indicatrix, and returns the share of its cells that would be negative without clamping.
+    /// Returns the luminance coefficients of the indicatrix with index `row`, restored \[1/sr\], and the share of its
+    /// cells that would be negative without clamping to 0.
     pub fn restored(&self, row: usize) -> (Vec<f64>, f64) {
         let (order, quantised) = self.quantised(row);
         self.decoder.restore(order, &quantised)
     }
 
-    /// Returns the value of one cell of an indicatrix. \[1/sr\] The indicatrix is restored once and kept until another
-    /// is requested.
+    /// Returns the luminance coefficient of one cell of the indicatrix with index `row`. \[1/sr\] The indicatrix is
+    /// restored once and cached until another is requested.
     pub fn value(&self, row: usize, cell: usize) -> f64 {
         let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
         match &*last {
@@ -226,12 +231,13 @@ impl CompactRows {
         }
     }
 
-    /// Returns the count of the numbers kept: coefficients that are not 0, and τ.
+    /// Returns the total number of stored numbers: wavelet coefficients that are not 0, and one τ per indicatrix.
     pub fn numbers(&self) -> usize {
         self.rows.iter().map(|row| row.count as usize).sum()
     }
 
-    /// Returns the bytes that the rows take in memory, without the transforms that all data on these cells share.
+    /// Returns the memory of the compressed indicatrices in bytes, without the transforms, which all data on these
+    /// cells share.
     pub fn bytes_in_use(&self) -> usize {
         self.rows.iter().map(|row| size_of::<Packed>() + row.list.len()).sum()
     }
@@ -255,8 +261,8 @@ impl fmt::Debug for CompactRows {
     }
 }
 
-/// Estimates the bits of a row by the entropy of its zeros and the magnitudes of the others; only compared with one
-/// another.
+/// Returns an estimate of the size of a quantised row in bits, by the entropy of its zeros and the magnitudes of the
+/// other levels, for comparisons between orders.
 fn cost(row: &QuantisedRow) -> f64 {
     let n = row.levels.len() as f64;
     let kept = row.levels.iter().filter(|level| **level != 0);
@@ -266,6 +272,7 @@ fn cost(row: &QuantisedRow) -> f64 {
     bits + places
 }
 
+/// Packs a row: gaps between coefficients other than 0 and zigzag-coded levels, as numbers of 7 bits per byte.
 fn pack(order: Order, row: &QuantisedRow) -> Packed {
     let mut list = Vec::new();
     let mut number = |mut n: u32| {
@@ -284,6 +291,7 @@ fn pack(order: Order, row: &QuantisedRow) -> Packed {
     Packed { order, tau: row.tau, step: row.step, count: row.count() as u32, list: list.into() }
 }
 
+/// Unpacks a row on a basis with this number of cells.
 fn unpack(packed: &Packed, cells: usize) -> QuantisedRow {
     let mut levels = vec![0; cells];
     let mut bytes = packed.list.iter();
@@ -307,10 +315,12 @@ fn unpack(packed: &Packed, cells: usize) -> QuantisedRow {
     QuantisedRow { tau: packed.tau, step: packed.step, levels }
 }
 
-/// Number of transforms kept for the bases that were used last, three orders of three bases; building one takes a third
-/// of a second for 20 000 cells. Chosen: cost only, no effect on results.
+/// Number of cached transforms for the bases that were used last, three orders of three bases; building one takes a
+/// third of a second for 20 000 cells. Chosen: cost only, no effect on results.
 const REMEMBERED: usize = 9;
 
+/// Returns the transform of a basis with its step factors, from the cache if it is there. `exponent`: exponent β of the
+/// quantisation steps, in tenths.
 fn prepared(basis: &RingBasis, order: Order, exponent: u8) -> Arc<Prepared> {
     type Known = Mutex<Vec<((RingBasis, Order, u8), Arc<Prepared>)>>;
     static KNOWN: Known = Mutex::new(Vec::new());
@@ -324,7 +334,7 @@ fn prepared(basis: &RingBasis, order: Order, exponent: u8) -> Arc<Prepared> {
             return found;
         }
     }
-    // Built outside the lock: several may be needed at once, and the same one twice is only work.
+    // Built without holding the lock: several may be needed at once, and building one twice only costs time.
     let most = 2 * order.functions();
     let transform = Transform::new(&Hierarchy::of_rings(basis, most), order);
     let factors = step_factors(&transform, f64::from(exponent) / 10.0);

@@ -1,41 +1,41 @@
-//! Cells of a division of the hemisphere, halved recursively: the tree on which the wavelets are defined.
+//! Tree of groups of cells, by recursive halving of a basis, on which the wavelets are defined.
 //!
-//! Rings of any instrument are halved in the square that Shirley and Chiu map to the disk, with the disk's radius taken
-//! as √(1 − cosθ), so that equal areas are equal solid angles: groups of cells stay about as wide as high, and their
+//! The cells of any ring basis are halved in the square that Shirley and Chiu map to the disk, with √(1 − cosθ) as the
+//! radius of the disk, so that equal areas are equal solid angles: groups of cells are about as wide as high, and their
 //! borders follow the rings.
 
 use crate::compute::basis::{RingBasis, square_from_disk};
 use glam::DVec3;
 
-/// Cell reduced to weight and direction.
+/// Cell of a basis, reduced to its weight and the direction of its centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CellPoint {
-    /// Projected solid angle ∫cosθ dω. \[sr\]
+    /// Projected solid angle ∫cosθ dω of the cell. \[sr\]
     pub weight: f64,
-    /// Direction of the centre; a unit vector, façade frame, through direction.
+    /// Unit vector to the centre of the cell, façade frame; a reversed emergent direction.
     pub centre: DVec3,
 }
 
-/// Group of cells: a few of them, or smaller groups.
+/// Group of cells in the tree: either a few cells or smaller groups.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Group {
-    /// Indices of cells.
+    /// Indices of the cells of the group.
     Cells(Vec<u32>),
-    /// Smaller groups.
+    /// Smaller groups that make up the group.
     Groups(Vec<Group>),
 }
 
-/// Cells with the tree of groups over them.
+/// Cells of a basis with a tree of groups of them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hierarchy {
-    /// Cells, in the order in which values are given.
+    /// Cells, in the order of the values of an indicatrix.
     pub cells: Vec<CellPoint>,
-    /// Group of all cells.
+    /// Root of the tree: the group of all cells.
     pub root: Group,
 }
 
 impl Hierarchy {
-    /// Builds the tree over the cells of a ring basis, halved down to groups of at most `most` cells (≥ 1).
+    /// Creates the tree for the cells of a ring basis, halved down to groups of at most `most` cells (≥ 1).
     pub fn of_rings(basis: &RingBasis, most: usize) -> Self {
         let mut cells = Vec::with_capacity(basis.len());
         let mut places = Vec::with_capacity(basis.len());
@@ -52,6 +52,8 @@ impl Hierarchy {
     }
 }
 
+/// Divides cells into groups of at most `most` cells, by repeated halving across the longer side. `places`: positions
+/// of all cells on the square of Shirley and Chiu.
 fn halve(cells: &mut [u32], places: &[[f64; 2]], most: usize) -> Group {
     if cells.len() <= most {
         let mut list = cells.to_vec();
@@ -62,9 +64,9 @@ fn halve(cells: &mut [u32], places: &[[f64; 2]], most: usize) -> Group {
         let range = cells.iter().map(|&cell| places[cell as usize][axis]);
         range.clone().fold(f64::NEG_INFINITY, f64::max) - range.fold(f64::INFINITY, f64::min)
     };
-    // A tie goes to the vertical: borders must not depend on rounding.
+    // Equal extents are divided along the second axis, so that borders do not depend on rounding.
     let axis = usize::from(extent(1) > 0.999_999 * extent(0));
-    // Places that differ by rounding are the same place; the other coordinate, then the number decide.
+    // Coordinates that differ by rounding only are equal; then the other coordinate decides, then the index.
     let key = |cell: u32| {
         let grain = |x: f64| (x * 1e9).round() as i64;
         let place = places[cell as usize];
@@ -76,8 +78,8 @@ fn halve(cells: &mut [u32], places: &[[f64; 2]], most: usize) -> Group {
     Group::Groups(vec![halve(low, places, most), halve(high, places, most)])
 }
 
-/// Returns where a sorted list is divided: at the change of place nearest to the middle, if one lies within its inner
-/// 40 %.
+/// Returns the index at which a sorted list of cells is divided: at the change of position nearest to the middle, if
+/// one lies within its inner 40 %, otherwise in the middle.
 fn middle(count: usize, place: impl Fn(usize) -> i64) -> usize {
     let half = count / 2;
     for step in 0..=count / 5 {

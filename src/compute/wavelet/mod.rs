@@ -1,4 +1,5 @@
-//! Spherical wavelets: indicatrices in few numbers, τ kept exactly (the report's §3.1, eq 14–15, and its Figure 11).
+//! Compression of indicatrices by spherical wavelets, with exact τ (IEA SHC Task 31 report, §3.1, eq 14–15 and Figure
+//! 11).
 //!
 //! ```text
 //!  cells ─ Hierarchy ─ Transform ─► coefficients ─ QuantisedRow ─► CompactRows ─► formats::compact_rows (bytes)
@@ -6,13 +7,15 @@
 //!
 //! # Choices and reasons
 //!
-//! The report puts indicatrices on a triangle quadtree and uses the Haar wavelets of Schröder and Sweldens (1995). Here
-//! the wavelets live on the cells of the data themselves, halved down from the hemisphere, and are orthonormal under
-//! the cells' projected solid angles: nothing is resampled, all values return if nothing is dropped, Σ w q² = Σ c²,
-//! and one coefficient is τ. Besides Haar (constants) the wavelets may be blind to what is linear or quadratic in the
-//! direction ([`Order`]); every indicatrix takes the order that is smallest.
+//! The report resamples indicatrices to a triangle quadtree and uses the Haar wavelets of Schröder and Sweldens (1995).
+//! Here the wavelets are defined on the cells of the data, halved down from the hemisphere, and are orthonormal under
+//! the cells' projected solid angles: nothing is resampled, the values are restored exactly if no coefficient is
+//! dropped, Σ w q² = Σ c², and one coefficient is τ. Besides Haar wavelets (of constants) there are wavelets that
+//! vanish on functions linear or quadratic in the direction ([`Order`]); for each indicatrix the order with the
+//! smallest size is used.
 //!
-//! Values given for every number kept at 1 % rms, cells of 1°, thresholds alone (quantised in brackets):
+//! Compression ratio (values per stored number) at 1 % rms error, cells of 1°, by thresholds alone (with quantisation
+//! in brackets):
 //!
 //! | | triangles, Haar | triangles, linear | rings, Haar | rings, linear | rings, quadratic |
 //! | --- | --- | --- | --- | --- | --- |
@@ -22,13 +25,14 @@
 //! | the same, 2 % noise | 3.8 (3.1) | 6.4 (5.3) | 3.4 (2.9) | 6.3 (5.2) | **6.8 (5.6)** |
 //! | a lobe of 2° | 109 (86) | 59 (46) | **138 (111)** | 98 (74) | 69 (56) |
 //!
-//! So the tree matters little and the order much: Haar is worst at smooth parts and best at single peaks.
+//! The tree therefore matters little and the order much: Haar is worst for smooth indicatrices and best for single
+//! peaks.
 //!
-//! Steps may follow the support W of a wavelet as (W/W_all)^−β. For a square norm β = 0 is best; for misplaced flux,
-//! which forgives large errors on small places, β = 0.3 saves up to a tenth of the bytes.
+//! Quantisation steps may depend on the support W of a wavelet by (W/W_all)^−β. For a square norm β = 0 is best; for
+//! misplaced flux, which tolerates large errors on small areas, β = 0.3 saves up to a tenth of the bytes.
 //!
-//! Noise is not worth its bytes: 2 % of it on a diffuser costs 50 kB at 0.5 % of the flux and 1 kB at 1.5 %. A
-//! threshold below the noise of a measurement only keeps the noise.
+//! Noise should not be stored: 2 % of it on a diffuser costs 50 kB with 0.5 % misplaced flux and 1 kB with 1.5 %. A
+//! threshold below the noise of a measurement only preserves the noise.
 
 mod compact;
 mod hierarchy;

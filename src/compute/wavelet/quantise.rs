@@ -1,40 +1,44 @@
-//! Quantisation of one indicatrix: the step is found by bisection so that a stated error is kept.
+//! Quantisation of the wavelet coefficients of one indicatrix, with the coarsest step whose error is within a stated
+//! one.
 
 use super::transform::Transform;
 
-/// Error that the restored indicatrix must not exceed, quantisation, clamping and rescaling included.
+/// Maximum error of a compressed indicatrix f̃ against the original f, with its measure; quantisation, clamping and
+/// rescaling are included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Criterion {
-    /// Share of the flux that goes elsewhere: ½∫|f̃ − f| cosθ dω / τ.
+    /// Share of the flux in wrong directions: ½∫|f̃ − f| cosθ dω / τ.
     Misplaced(f64),
     /// Relative rms error √(∫(f̃ − f)² cosθ dω / ∫f² cosθ dω).
     Rms(f64),
-    /// Share of the energy Σc² = ∫f² cosθ dω that is dropped: the square of [`Self::Rms`].
+    /// Error energy relative to that of the indicatrix, ∫(f̃ − f)² cosθ dω / ∫f² cosθ dω: the square of [`Self::Rms`].
     Energy(f64),
 }
 
 impl Criterion {
-    /// 0.5 % of the flux misplaced: for archives. Chosen: keeps noise of measurements, too, see the head of
-    /// [`crate::compute::wavelet`]; held by `tests/compute/compact.rs::a_blind_of_21_states_at_one_degree_fits` (8 MB).
+    /// Criterion for archives: 0.5 % of the flux misplaced. Chosen: preserves the noise of measurements, too, see the
+    /// head of [`crate::compute::wavelet`]; held by `tests/compute/compact.rs::a_blind_of_21_states_at_one_degree_fits`
+    /// (8 MB).
     pub const ARCHIVE: Self = Self::Misplaced(0.005);
-    /// 1.5 % of the flux misplaced. Chosen: noise of 2 % on a diffuser costs 1 kB here and 50 kB with
-    /// [`Self::ARCHIVE`].
+    /// Default criterion: 1.5 % of the flux misplaced. Chosen: noise of 2 % on a diffuser costs 1 kB here and 50 kB
+    /// with [`Self::ARCHIVE`].
     pub const NORMAL: Self = Self::Misplaced(0.015);
 
-    /// Returns the threshold as it was given.
+    /// Returns the maximum error in the measure of the criterion.
     pub const fn threshold(self) -> f64 {
         match self {
             Self::Misplaced(e) | Self::Rms(e) | Self::Energy(e) => e,
         }
     }
 
-    /// Whether the threshold is allowed: from 1e-6 to below 1 (energy: from 1e-12).
+    /// Whether the threshold is within the allowed range: from 1e-6 (for [`Self::Energy`] 1e-12) to below 1.
     pub fn is_valid(self) -> bool {
         let least = if matches!(self, Self::Energy(_)) { 1e-12 } else { 1e-6 };
         (least..1.0).contains(&self.threshold())
     }
 
-    /// Computes the error of one indicatrix in the criterion's own measure; 0 for a dark one.
+    /// Returns the error of one restored indicatrix in the measure of the criterion; 0 if τ is 0. `weights`: projected
+    /// solid angles of the cells \[sr\]; `given` and `back`: original and restored luminance coefficients \[1/sr\].
     pub fn error(self, weights: &[f64], given: &[f64], back: &[f64]) -> f64 {
         match self {
             Self::Misplaced(_) => {
@@ -53,40 +57,41 @@ impl Criterion {
     }
 }
 
-/// Quantised coefficients of one indicatrix.
+/// Quantised wavelet coefficients of one indicatrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct QuantisedRow {
-    /// τ = ∫f cosθ dω, not quantised.
+    /// Transmittance τ = ∫f cosθ dω of the indicatrix, not quantised.
     pub tau: f64,
-    /// Step in sixteenths of an octave: log₂ of the step times 16.
+    /// Quantisation step in sixteenths of an octave: 16 · log₂ of the step.
     pub step: i16,
-    /// Whole number per coefficient; the first, which represents τ, is 0.
+    /// Quantised level of each coefficient, in steps; the first, which represents τ, is 0.
     pub levels: Vec<i32>,
 }
 
-/// Number of steps per octave. Chosen: a step is at most 2^(1/16) = 1.04 times finer than needed. Part of the file
-/// format.
+/// Number of quantisation steps per octave. Chosen: a step is at most 2^(1/16) = 1.04 times finer than needed. Part of
+/// the file format.
 const STEPS: f64 = 16.0;
-/// Minimum magnitude that is not dropped, in steps. It is above one half because a coefficient just above one half
-/// costs more than it gives. Chosen: size only; the error is checked afterwards, whatever was dropped.
+/// Minimum magnitude of a coefficient that is not dropped, in steps. It is above one half because a coefficient just
+/// above one half needs more bits than it saves error. Chosen: size only; the error is checked afterwards in any case.
 const DEAD_ZONE: f64 = 0.62;
-/// Maximum magnitude in steps: 2²⁴, the largest that the decoder takes.
+/// Maximum magnitude of a coefficient in steps: 2²⁴, the largest that the decoder accepts.
 const LARGEST: f64 = 16_777_216.0;
 
-/// Returns the step of a number of sixteenths of an octave.
+/// Returns the quantisation step for a number of sixteenths of an octave.
 pub(crate) fn step_of(number: i16) -> f64 {
     (f64::from(number) / STEPS).exp2()
 }
 
-/// Returns the factors by which steps follow the support of a wavelet: step · (W/W_all)^−β. With β = 0 all coefficients
-/// have the same error, which is best for a square norm. Misplaced flux forgives large errors on small places.
+/// Returns the factors (W/W_all)^−β of the quantisation steps of all coefficients, with the support W of a wavelet and
+/// β = `exponent`. With β = 0 all coefficients have the same error, which is best for a square norm; misplaced flux
+/// tolerates large errors on small areas.
 pub(crate) fn step_factors(transform: &Transform, exponent: f64) -> Vec<f64> {
     let all = transform.weight();
     transform.supports().into_iter().map(|support| (support / all).powf(-exponent)).collect()
 }
 
 impl QuantisedRow {
-    /// Rounds coefficients to whole steps.
+    /// Creates the quantised row by rounding coefficients to whole steps.
     pub(crate) fn new(tau: f64, coefficients: &[f64], factors: &[f64], step: i16) -> Self {
         let unit = step_of(step);
         let level = |(c, factor): (&f64, &f64)| {
@@ -99,12 +104,12 @@ impl QuantisedRow {
         Self { tau, step, levels }
     }
 
-    /// Returns the number of values that differ from 0, τ among them.
+    /// Returns the number of stored numbers: levels that are not 0, and τ if it is not 0.
     pub fn count(&self) -> usize {
         usize::from(self.tau != 0.0) + self.levels.iter().filter(|level| **level != 0).count()
     }
 
-    /// Returns the coefficients in their unit.
+    /// Returns the wavelet coefficients, rescaled from whole steps.
     pub(crate) fn coefficients(&self, transform: &Transform, factors: &[f64]) -> Vec<f64> {
         let unit = step_of(self.step);
         let mut out: Vec<f64> =
@@ -113,8 +118,8 @@ impl QuantisedRow {
         out
     }
 
-    /// Restores the indicatrix: not negative, and with its τ to rounding. Also returns the share of cells that were
-    /// negative before.
+    /// Returns the restored luminance coefficients, not negative and with τ to rounding \[1/sr\], and the share of
+    /// cells that were negative before clamping to 0.
     pub(crate) fn restore(&self, transform: &Transform, factors: &[f64], weights: &[f64]) -> (Vec<f64>, f64) {
         if self.tau <= 0.0 {
             return (vec![0.0; transform.len()], 0.0);
@@ -133,14 +138,15 @@ impl QuantisedRow {
         if scale.is_finite() && scale > 0.0 {
             values.iter_mut().for_each(|value| *value *= scale);
         } else {
-            // Only from coefficients that no data has: so large that τ drowns in their rounding.
+            // Only for damaged coefficients, so large that τ is lost in their rounding.
             values.fill(self.tau / transform.weight());
         }
         (values, f64::from(negative) / transform.len() as f64)
     }
 }
 
-/// Finds the coarsest quantisation that keeps the criterion; a dark indicatrix has no coefficients.
+/// Returns the coarsest quantisation of an indicatrix that meets the criterion; an indicatrix with τ = 0 has no
+/// coefficients.
 pub(crate) fn quantise(
     transform: &Transform,
     factors: &[f64],
@@ -159,7 +165,7 @@ pub(crate) fn quantise(
         let (back, _) = row.restore(transform, factors, weights);
         (criterion.error(weights, given, &back) <= criterion.threshold()).then_some(row)
     };
-    // From "all dropped" down to what 24 bits hold.
+    // From the step that drops all coefficients to the finest step whose levels fit in 24 bits.
     let top = ((2.0 * largest).log2() * STEPS).ceil().clamp(-2800.0, 3200.0) as i16;
     let floor = top - 23 * STEPS as i16;
     let (mut low, mut high) = (floor, top);

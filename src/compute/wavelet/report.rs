@@ -1,36 +1,37 @@
-//! Saving and errors of the compact form of a dataset.
+//! Compression ratio and errors of the wavelet compression of a dataset.
 
 use super::compact::CompactRows;
 use super::quantise::Criterion;
 
-/// Saved numbers and errors of all indicatrices of one function. Dark ones (τ = 0) are restored exactly and are left
-/// out of means.
+/// Compression ratio and errors of the wavelet compression of all indicatrices f of one BTDF or BRDF, restored as f̃.
+/// Those with τ = 0 are restored exactly and are left out of means.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CompactReport {
     /// Number of indicatrices.
     pub rows: usize,
     /// Number of emergent cells of each indicatrix.
     pub cells: usize,
-    /// Count of the numbers kept: coefficients that are not 0, and one τ per row.
+    /// Total number of stored numbers: wavelet coefficients that are not 0, and one τ per indicatrix.
     pub numbers: usize,
-    /// Relative rms error √(∫(f̃ − f)² / ∫f²) over all rows together.
+    /// Relative rms error √(∫(f̃ − f)² / ∫f²) over all indicatrices together.
     pub rms: f64,
-    /// Relative rms error √(∫(f̃ − f)² / ∫f²) of the worst row.
+    /// Relative rms error √(∫(f̃ − f)² / ∫f²) of the worst indicatrix.
     pub rms_worst: f64,
-    /// Largest |f̃ − f| of any cell over the largest f of its row.
+    /// Largest |f̃ − f| of any cell, relative to the largest f of its indicatrix.
     pub largest: f64,
-    /// Misplaced share of the flux, ½∫|f̃ − f| cosθ dω / τ, mean of the rows.
+    /// Share of the flux in wrong directions, ½∫|f̃ − f| cosθ dω / τ, mean over the indicatrices.
     pub misplaced: f64,
-    /// Misplaced share of the flux, ½∫|f̃ − f| cosθ dω / τ, of the worst row.
+    /// Share of the flux in wrong directions, ½∫|f̃ − f| cosθ dω / τ, of the worst indicatrix.
     pub misplaced_worst: f64,
-    /// Largest |τ̃ − τ| / τ.
+    /// Largest relative error |τ̃ − τ| / τ of the transmittance of any indicatrix.
     pub tau_error: f64,
-    /// Share of cells that were negative before clamping, mean of the rows.
+    /// Share of cells that were negative before clamping to 0, mean over the indicatrices.
     pub negative: f64,
 }
 
 impl CompactReport {
-    /// Compares compact rows with their originals, which `row` returns.
+    /// Compares compressed indicatrices with their originals. `row`: returns the luminance coefficients of an original
+    /// by index \[1/sr\].
     pub fn new(compact: &CompactRows, row: impl Fn(usize) -> Vec<f64>) -> Self {
         let weights = compact.basis().projected_solid_angles();
         let mut report =
@@ -41,15 +42,15 @@ impl CompactReport {
             let (back, negative) = compact.restored(index);
             let sum = |f: &dyn Fn(usize) -> f64| weights.iter().enumerate().map(|(k, w)| w * f(k)).sum::<f64>();
             let (tau, tau_back) = (sum(&|k| given[k]), sum(&|k| back[k]));
-            // Dark rows have no relative error, and come back exactly.
+            // Dark rows are restored exactly and have no relative error.
             if tau <= 0.0 {
                 continue;
             }
             lit += 1.0;
-            // Squares are summed over all rows before they are divided: bright rows count for what they are.
+            // Squares are summed over all rows before the division, so that bright rows count more.
             off += sum(&|k| (back[k] - given[k]).powi(2));
             all += sum(&|k| given[k].powi(2));
-            // The threshold within a criterion plays no part here: only its measure of error does.
+            // Only the criterion's measure of error is used, not its threshold.
             let misplaced = Criterion::ARCHIVE.error(&weights, &given, &back);
             report.misplaced += misplaced;
             report.misplaced_worst = report.misplaced_worst.max(misplaced);
@@ -60,14 +61,14 @@ impl CompactReport {
             report.tau_error = report.tau_error.max((tau_back - tau).abs() / tau);
             report.negative += negative;
         }
-        // Without any row that is lit all errors are 0.
+        // Without any row with light, all errors are 0.
         report.rms = if all > 0.0 { (off / all).sqrt() } else { 0.0 };
         report.misplaced /= lit.max(1.0);
         report.negative /= lit.max(1.0);
         report
     }
 
-    /// Returns the number of given values per number kept.
+    /// Returns the compression ratio: original values per stored number.
     pub fn ratio(&self) -> f64 {
         (self.rows * self.cells) as f64 / self.numbers.max(1) as f64
     }

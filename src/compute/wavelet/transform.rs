@@ -1,19 +1,19 @@
-//! The orthonormal transform: multiwavelets with weights on a tree of cells.
+//! Orthonormal wavelet transform: multiwavelets with weights on a tree of cells.
 //!
-//! Every group of cells keeps as many *scaling functions* as the chosen [`Order`] has polynomials, orthonormal under
-//! Σ w f g with w = projected solid angle; what they cannot express of the functions of the groups inside is left to
-//! *wavelets*. With the constant alone this is the weighted Haar transform (Schröder and Sweldens 1995; SOHO of Lessig
-//! and Fiume 2008 for triangles). With x, y, z of the direction as well, wavelets vanish on everything that is linear
-//! in the direction (Alpert 1993, here on points of arbitrary weight). The first scaling function is the constant, so
-//! that one coefficient holds τ, whatever happens to the others.
+//! Every group of cells has as many *scaling functions* as the chosen [`Order`] has polynomials, orthonormal under Σ w
+//! f g with w = projected solid angle; the remainder of the functions of the groups inside is expressed by *wavelets*.
+//! With the constant alone this is the weighted Haar transform (Schröder and Sweldens 1995; SOHO of Lessig and Fiume
+//! 2008 for triangles). With x, y, z of the direction as well, wavelets vanish on everything that is linear in the
+//! direction (Alpert 1993, here on points of arbitrary weight). The first scaling function is the constant, so that one
+//! coefficient alone determines τ.
 
 use super::hierarchy::{Group, Hierarchy};
 use glam::DVec3;
 
-/// Functions that a group of cells expresses without wavelets.
+/// Order of wavelets: the functions of the direction that a group of cells expresses without wavelets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Order {
-    /// Constants: Haar.
+    /// Constants: Haar wavelets.
     Constant,
     /// Functions linear in the direction: 1, x, y, z.
     Linear,
@@ -22,7 +22,7 @@ pub enum Order {
 }
 
 impl Order {
-    /// Returns the number of polynomials of the order.
+    /// Returns the number of polynomials of the order: 1, 4 or 9.
     pub const fn functions(self) -> usize {
         match self {
             Self::Constant => 1,
@@ -32,16 +32,16 @@ impl Order {
     }
 }
 
-/// Group of cells with an orthonormal matrix from the coefficients of its parts to its own and its wavelets.
+/// Group of cells with the orthonormal matrix from the coefficients of its parts to its scaling functions and wavelets.
 #[derive(Debug, Clone, Copy)]
 pub struct Block {
-    /// Number of generations from the root.
+    /// Level of the group in the tree, 0 for the root.
     pub level: u32,
-    /// Index of the block that contains this one; its own index for the root.
+    /// Index of the block that contains this one; for the root the index of the root.
     pub parent: u32,
-    /// Index of the first block inside.
+    /// Index of the first block directly inside.
     pub first_child: u32,
-    /// Number of blocks inside; 0 where the parts are cells.
+    /// Number of blocks directly inside; 0 if the parts are cells.
     pub children: u32,
     /// Projected solid angle ∫cosθ dω of all cells of the group. \[sr\]
     pub weight: f64,
@@ -57,13 +57,13 @@ pub struct Block {
 }
 
 impl Block {
-    /// Returns the number of the block's wavelets.
+    /// Returns the number of wavelets of the block.
     pub fn wavelet_count(&self) -> usize {
         (self.inputs - self.kept) as usize
     }
 }
 
-/// Transform for one tree of cells.
+/// Wavelet transform between values on cells and coefficients, for one tree of cells and one order.
 #[derive(Debug, Clone)]
 pub struct Transform {
     root_weight: Vec<f64>,
@@ -75,12 +75,11 @@ pub struct Transform {
     kept: usize,
 }
 
-/// Share of its length below which the rest of a column, orthogonal to the rows before, is not a new function. Rounding
-/// is 2⁻⁵² of the length, 2e-10 of such a rest.
+/// Relative length of a column's remainder (orthogonal to the rows before) below which it counts as rounding (2⁻⁵²).
 const INDEPENDENT: f64 = 1e-6;
 
-/// Powers of x, y, z: those of the orders, then one degree more. The wavelets follow them as far as possible, which
-/// gathers the smooth part in few of them. On the sphere z² is not independent and left out.
+/// Powers of x, y, z of the polynomials: those of the orders, then one degree more. The wavelets follow them as far as
+/// possible, so that few of them express smooth functions. On the sphere z² is not independent and left out.
 const POWERS: [[i32; 3]; 16] = [
     [0, 0, 0],
     [1, 0, 0],
@@ -101,7 +100,7 @@ const POWERS: [[i32; 3]; 16] = [
 ];
 
 impl Transform {
-    /// Prepares the matrices for a tree of cells and an order.
+    /// Prepares the transform for a tree of cells and an order.
     pub fn new(hierarchy: &Hierarchy, order: Order) -> Self {
         let mut builder = Builder {
             hierarchy,
@@ -114,32 +113,32 @@ impl Transform {
         builder.finish(root_weight)
     }
 
-    /// Returns the number of cells, which is also that of the coefficients.
+    /// Returns the number of cells, which is also the number of coefficients.
     pub fn len(&self) -> usize {
         self.root_weight.len()
     }
 
-    /// Whether there are no cells; never for a hierarchy of a basis.
+    /// Whether there are no cells; always `false` for the cells of a basis.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Returns the blocks, coarse to fine; parents before their parts.
+    /// Returns the blocks of the tree, coarse to fine, each before its parts.
     pub fn blocks(&self) -> &[Block] {
         &self.blocks
     }
 
-    /// Returns the number of coefficients of the root's scaling functions. The first is the constant's.
+    /// Returns the number of coefficients of the root's scaling functions. The first is that of the constant.
     pub fn root_count(&self) -> usize {
         self.blocks.first().map_or(0, |root| root.kept as usize)
     }
 
-    /// Returns Σ w of all cells. \[sr\]
+    /// Returns the projected solid angle of all cells together. \[sr\]
     pub fn weight(&self) -> f64 {
         self.blocks.first().map_or(0.0, |root| root.weight)
     }
 
-    /// Returns ∫cosθ dω of the group to which each coefficient belongs. \[sr\]
+    /// Returns for each coefficient the projected solid angle of its group of cells. \[sr\]
     pub fn supports(&self) -> Vec<f64> {
         let mut supports = vec![self.weight(); self.len()];
         for block in &self.blocks {
@@ -149,7 +148,7 @@ impl Transform {
         supports
     }
 
-    /// Computes the coefficients of a function given by its cell means; Σ w f² = Σ c².
+    /// Computes the wavelet coefficients c of a function given by its means f over the cells; Σ w f² = Σ c².
     pub fn forward(&self, values: &[f64]) -> Vec<f64> {
         assert_eq!(values.len(), self.len(), "one value a cell");
         let leaves: Vec<f64> =
@@ -178,7 +177,7 @@ impl Transform {
         coefficients
     }
 
-    /// Computes the cell means of a function given by its coefficients.
+    /// Computes the means over the cells of a function given by its wavelet coefficients.
     pub fn inverse(&self, coefficients: &[f64]) -> Vec<f64> {
         assert_eq!(coefficients.len(), self.len(), "one coefficient a cell");
         let flat = self.flat(coefficients);
@@ -189,7 +188,7 @@ impl Transform {
         for (block, flat) in self.blocks.iter().zip(flat) {
             let (n, m, at) = (block.inputs as usize, block.kept as usize, block.kept_at as usize);
             if flat && m == 1 && block.weight > 0.0 {
-                // A constant below here. Blocks inside find zeros and add nothing.
+                // The function is constant within this block; inner blocks find zeros and add nothing.
                 let value = kept[at] / block.weight.sqrt();
                 if value != 0.0 {
                     let [first, end] = block.cells.map(|at| at as usize);
@@ -219,7 +218,7 @@ impl Transform {
         values
     }
 
-    /// Returns for each block whether it has no wavelet in it or below it.
+    /// Returns for each block whether all wavelet coefficients of it and of the blocks inside are 0.
     fn flat(&self, coefficients: &[f64]) -> Vec<bool> {
         let mut flat = vec![true; self.blocks.len()];
         for (index, block) in self.blocks.iter().enumerate().rev() {
@@ -252,7 +251,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    /// Numbers the groups breadth first, so that the parts of a group are consecutive.
+    /// Numbers the groups breadth first, so that the indices of the parts of a group are consecutive.
     fn number(&mut self, root: &Group) {
         fn cells(group: &Group, out: &mut Vec<u32>) {
             match group {
@@ -282,16 +281,17 @@ impl Builder<'_> {
         }
     }
 
+    /// Computes the orthonormal matrix of every group from the leaves to the root, and creates the transform.
     fn finish(self, root_weight: Vec<f64>) -> Transform {
         let count = self.groups.len();
-        // Scaling functions of every group on its cells, one vector a function; dropped when the parent has its own.
+        // Scaling functions of every group on its cells, one vector each; dropped once the parent's exist.
         let mut functions: Vec<Vec<Vec<f64>>> = vec![Vec::new(); count];
         let mut matrices: Vec<Vec<Vec<f64>>> = vec![Vec::new(); count];
         for index in (0..count).rev() {
             let group = &self.groups[index];
             let cells = &self.order[group.cells[0]..group.cells[1]];
             let column = self.columns(cells, &root_weight);
-            // Coordinates of a function on the cells in what the parts keep.
+            // Coordinates of a function on the cells with respect to the scaling functions of the children.
             let project = |column: &[f64]| -> Vec<f64> {
                 if group.children.is_empty() {
                     return column.to_vec();
@@ -344,7 +344,7 @@ impl Builder<'_> {
             });
             functions[index] = scaling.collect();
             for &child in &group.children {
-                // The lengths are still needed, the values are not.
+                // Only their number is still needed.
                 functions[child as usize].iter_mut().for_each(|f| *f = Vec::new());
             }
             matrices[index] = rows;
@@ -352,7 +352,7 @@ impl Builder<'_> {
         self.lay_out(root_weight, &functions, matrices)
     }
 
-    /// Returns a function that gives polynomials about the group's middle, times √w, by their [`POWERS`].
+    /// Returns a function that evaluates polynomials about the group's middle, times √w, given by their [`POWERS`].
     fn columns(&self, cells: &[u32], root_weight: &[f64]) -> impl Fn(&[i32; 3]) -> Vec<f64> {
         let points = &self.hierarchy.cells;
         let weight: f64 = cells.iter().map(|&cell| points[cell as usize].weight).sum();
@@ -366,6 +366,7 @@ impl Builder<'_> {
         }
     }
 
+    /// Stores the matrices of all groups (`rows`) one after the other. `functions`: scaling functions of every group.
     fn lay_out(self, root_weight: Vec<f64>, functions: &[Vec<Vec<f64>>], rows: Vec<Vec<Vec<f64>>>) -> Transform {
         let mut blocks: Vec<Block> = Vec::with_capacity(self.groups.len());
         let mut matrices = Vec::new();
@@ -412,7 +413,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// Returns the part of a vector that is orthogonal to the rows, of unit length; `None` when nothing is left.
+/// Returns the part of a vector that is orthogonal to the rows, scaled to length 1; `None` if it is 0.
 fn independent(mut vector: Vec<f64>, rows: &[Vec<f64>]) -> Option<Vec<f64>> {
     let before = dot(&vector, &vector).sqrt();
     // Twice is enough (Kahan, Parlett); a third time for columns that are almost dependent.

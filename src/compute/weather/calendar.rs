@@ -2,10 +2,11 @@
 
 use std::fmt;
 
-/// Day as a weather file writes it. 29 February is accepted in any year, since rows are used as given.
+/// Day of the Gregorian calendar, as the row of a weather file states it. 29 February is accepted in any year, since
+/// rows are used as given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Day {
-    /// Year.
+    /// Calendar year, e.g. 2005.
     pub year: i16,
     /// Month, 1 … 12.
     pub month: u8,
@@ -57,7 +58,7 @@ impl Day {
         era * 146_097 + year_of_era * 365 + year_of_era / 4 - year_of_era / 100 + day_of_year - 719_468
     }
 
-    /// Returns the day of a common year, 1 … 365; 29 February as the 28th.
+    /// Returns the number of the day in a common year, 1 (1 January) … 365; 29 February has that of the 28th.
     pub fn of_common_year(self) -> u16 {
         let day = if self.month == 2 { self.day.min(28) } else { self.day };
         BEFORE[usize::from(self.month.clamp(1, 12)) - 1] + u16::from(day)
@@ -69,8 +70,8 @@ impl Day {
         (self.number() + 3).rem_euclid(7) as u8
     }
 
-    /// Returns the square of the mean distance of the sun over that of the day, by which the solar constant is
-    /// multiplied: Spencer 1971 on the day of a common year.
+    /// Returns the correction for the earth's eccentric orbit by which the solar constant is multiplied: the square of
+    /// the mean distance of the sun over its distance on this day (Spencer 1971, by the day of a common year).
     pub fn eccentricity(self) -> f64 {
         crate::compute::sky::perez::eccentricity(self.of_common_year())
     }

@@ -3,18 +3,22 @@
 use super::record::{Closure, Quantity, Weather};
 use super::sun_path::{SunPath, SunPathError};
 
-/// Maximum clock offset that is tried, to both sides. \[min\] Chosen: of nine measured and modelled years three have a
-/// clock that is off, by 30 and 40 min; an hour of daylight saving time may be added.
+/// Maximum clock offset, later and earlier, that the test of a weather file's clock tries. \[min\] Chosen: of nine
+/// measured and modelled years three have a clock that is off, by 30 and 40 min; an hour of daylight saving time may be
+/// added.
 pub const SEARCHED: i32 = 120;
-/// Step of the clock offsets tried. \[min\] Chosen: half of the 20 min from which a clock is reported as off.
+/// Step between the clock offsets that the test tries. \[min\] Chosen: half of the 20 min from which a clock is
+/// reported as off.
 const STEP: i32 = 10;
 /// Minimum number of rows with sun for a test of the clock. Chosen; no test depends on its exact value.
 const LEAST_HOURS: usize = 20;
-/// Minimum direct irradiance that counts: smaller values are lost in the rounding of the others. \[W/m²\]
+/// Minimum direct normal irradiance of a row that the test uses: smaller values are lost in the rounding of the others.
+/// \[W/m²\]
 const LEAST_BEAM: f64 = 1.0;
 
 impl Weather {
-    /// Tests the clock; `None` for files without global irradiance or with too few hours of sun.
+    /// Tests the file's clock: finds the clock offset with which global = diffuse + direct · sin h (h: altitude of the
+    /// sun) holds best. `None` for files without global irradiance or with too few hours of sun.
     ///
     /// # Errors
     /// Returns an error if the sun's position cannot be computed.

@@ -11,59 +11,63 @@ use crate::compute::sky::perez::SOLAR_CONSTANT;
 
 /// Code of the finding that direct normal irradiances are those on the horizontal plane.
 pub(super) const DIRECT_HORIZONTAL: &str = "direct-horizontal";
-/// Altitude of the sun above which a row has to close: below it sunrise falls into the interval. \[°\] In half an hour
-/// the sun climbs by up to 7.5°.
+/// Altitude of the sun above which a row has to satisfy global = diffuse + direct · sin h: below it sunrise falls into
+/// the interval. \[°\] In half an hour the sun climbs by up to 7.5°.
 const ROW_ALTITUDE: f64 = 10.0;
-/// Largest rest of a row in global − diffuse − direct · sin h: in four measured and modelled years no row with such a
-/// sun leaves more than 25, and a sun that is 10 min off leaves up to 40. \[W/m²\]
+/// Largest residual global − diffuse − direct · sin h that a row may have: in four measured and modelled years no row
+/// with such a sun leaves more than 25, and a sun that is 10 min off leaves up to 40. \[W/m²\]
 const MAX_REST: f64 = 150.0;
-/// Direct irradiance from which a row counts as sunny. \[W/m²\] Chosen: rounding of three values, 1.5 W/m², is 3 % of
-/// it; no test depends on its exact value.
+/// Direct irradiance from which a row of the file counts as sunny. \[W/m²\] Chosen: rounding of three values, 1.5 W/m²,
+/// is 3 % of it; no test depends on its exact value.
 const SUNNY: f64 = 50.0;
-/// Minimum number of rows needed to judge all of them. Chosen; no test depends on its exact value.
+/// Minimum number of sunny rows from which a finding about all of them is derived. Chosen; no test depends on its exact
+/// value.
 const MIN_ROWS: usize = 10;
-/// Largest rest of global − diffuse − direct that counts as 0: rounding of three values, 3 · 0.5 rounded up \[W/m²\],
-/// and share of direct.
+/// Largest residual global − diffuse − direct that counts as 0: \[W/m²\], above the rounding of three values (3 · 0.5),
+/// and as a share of direct, of which the larger applies.
 const SAME: (f64, f64) = (2.0, 0.005);
-/// Rest of global − diffuse − direct · sin h that shows that direct is not normal: the sun is not always high. \[W/m²\]
-/// Files of measured and modelled years leave 0.5 to 5.7 at their best clock, see [`MAX_RMS`].
+/// Rms residual of global − diffuse − direct · sin h above which the direct values are not taken for normal
+/// irradiances, when global − diffuse = direct holds instead. \[W/m²\] Files of measured and modelled years leave 0.5
+/// to 5.7 at their best clock, see [`MAX_RMS`].
 const NOT_NORMAL: f64 = 10.0;
-/// Altitude of the sun above which clear air lets through more than half of the light: at 20° 55 % with a Linke
-/// turbidity of 4 (Ineichen & Perez 2002). \[°\]
+/// Altitude of the sun above which a clear atmosphere transmits more than half of the sun's radiation: at 20° 55 % with
+/// a Linke turbidity of 4 (Ineichen & Perez 2002). \[°\]
 const CLEAR_ALTITUDE: f64 = 20.0;
 /// Maximum share of diffuse in global irradiance under a clear sky: 0.41 at an altitude of 20° with a Linke turbidity
 /// of 5, and less with a higher sun (Ineichen & Perez 2002).
 const CLEAR_DIFFUSE: f64 = 0.4;
-/// Minimum share of the extraterrestrial irradiance in the brightest of some clear rows: in five measured and modelled
-/// years that of any month has 0.59 or more.
+/// Minimum clearness index (global over extraterrestrial horizontal irradiance) of the brightest clear row of a file
+/// whose unit is W/m²: in five measured and modelled years that of any month has 0.59 or more.
 const MIN_CLEARNESS: f64 = 0.5;
-/// Largest difference between clock and solar time that a country may have; the largest is 3.2 h in the west of China.
-/// \[h\]
+/// Largest difference between standard time and mean solar time that a country may have; the largest is 3.2 h in the
+/// west of China. \[h\]
 const MAX_FROM_SUN: f64 = 3.5;
-/// Latitude beyond which clocks do not follow the sun. \[°\] Chosen: affects a warning only.
+/// Latitude, north and south, beyond which clocks do not follow the sun. \[°\] Chosen: affects a warning only.
 const POLAR: f64 = 80.0;
 
-/// Sums over the rows with sun.
+/// Sums over the rows of a weather file with the sun above [`ROW_ALTITUDE`], from which contradictions are found.
 #[derive(Default)]
 struct Balance {
     /// Number of rows with direct sun and all three irradiances.
     sunny: usize,
-    /// Number of sunny rows with global − diffuse = direct.
+    /// Number of sunny rows with global − diffuse = direct: direct values on the horizontal plane instead of normal
+    /// ones.
     flat: usize,
-    /// Sum over the sunny rows of the squared rest. \[W²/m⁴\]
+    /// Sum over the sunny rows of the squared residual of global − diffuse − direct · sin h. \[W²/m⁴\]
     squares: f64,
-    /// Rows whose rest is larger than [`MAX_REST`].
+    /// Rows whose residual global − diffuse − direct · sin h is larger than [`MAX_REST`].
     open: Count,
-    /// Largest rest. \[W/m²\]
+    /// Largest absolute residual of a row. \[W/m²\]
     rest: f64,
     /// Number of rows with little diffuse light under a high sun.
     clear: usize,
-    /// Largest share of the extraterrestrial irradiance in a clear row.
+    /// Largest clearness index (global over extraterrestrial horizontal irradiance) of the rows that `clear` counts.
     clearness: f64,
 }
 
 impl Weather {
-    /// Returns findings about contradictions; `closure`: the test of the clock.
+    /// Returns findings about contradictions between the file's values, its unit, its clock and its location;
+    /// `closure`: result of the test of its clock.
     pub(super) fn contradictions(&self, closure: Option<Closure>) -> Result<Vec<Finding>, SunPathError> {
         let mut findings = Vec::new();
         check_zone(&self.station, &mut findings);
@@ -73,7 +77,7 @@ impl Weather {
         Ok(findings)
     }
 
-    /// Sums up the rows with the sun above [`ROW_ALTITUDE`].
+    /// Sums up the rows with the sun above [`ROW_ALTITUDE`], with the clock offset that `closure` found best.
     fn balance(&self, closure: Option<Closure>) -> Result<Balance, SunPathError> {
         // A clock that is off is said elsewhere, once and not for every row.
         let moved = closure.filter(|one| self.tested.is_none() && one.is_off()).map_or(0.0, |one| one.best_offset);
@@ -112,7 +116,7 @@ impl Weather {
 }
 
 impl Balance {
-    /// Adds the findings that the sums show.
+    /// Adds to `findings` the contradictions that the sums show.
     fn say(&self, weather: &Weather, findings: &mut Vec<Finding>) {
         let rms = (self.squares / self.sunny.max(1) as f64).sqrt();
         if self.sunny >= MIN_ROWS && 100 * self.flat >= 99 * self.sunny && rms > NOT_NORMAL {

@@ -2,7 +2,7 @@
 
 use super::record::Record;
 
-/// Count of rows that have something in common.
+/// Count of the rows of a weather file that have a finding in common, with the line of the first one.
 #[derive(Default)]
 pub(super) struct Count {
     /// Number of rows.
@@ -11,13 +11,13 @@ pub(super) struct Count {
 }
 
 impl Count {
-    /// Adds a row.
+    /// Counts a row; remembers its line if it is the first.
     pub(super) fn add(&mut self, record: &Record) {
         self.number += 1;
         self.first.get_or_insert(record.line);
     }
 
-    /// Returns number and first line: `12 rows, first in line 40`.
+    /// Returns the number of rows and the line of the first one in words: `12 rows, first in line 40`.
     pub(super) fn words(&self) -> String {
         let rows = if self.number == 1 { "row" } else { "rows" };
         format!("{} {rows}, first in line {}", self.number, self.first.unwrap_or(0))

@@ -7,51 +7,53 @@ use super::record::{Closure, Field, Quantity, Weather};
 use super::sun_path::SunPath;
 use crate::compute::btdf::Finding;
 
-/// Sums over all records. Irradiations in kWh/m², light in klx·h.
+/// Sums over all records of a weather file: irradiations in kWh/m², luminous exposures (illuminance times time) in
+/// klx·h.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sums {
-    /// Global horizontal irradiation as the file states it, 0 where it does not. \[kWh/m²\]
+    /// Global horizontal irradiation by the file's global irradiances; records without one count as 0. \[kWh/m²\]
     pub global: f64,
-    /// Direct irradiation on a plane that follows the sun. \[kWh/m²\]
+    /// Direct irradiation on a plane that always faces the sun (direct normal). \[kWh/m²\]
     pub direct_normal: f64,
     /// Diffuse irradiation of the sky on the horizontal plane. \[kWh/m²\]
     pub diffuse: f64,
-    /// Diffuse horizontal illuminance. \[klx·h\]
+    /// Sum of diffuse horizontal illuminance times duration. \[klx·h\]
     pub diffuse_light: f64,
-    /// Illuminance on a plane that follows the sun. \[klx·h\]
+    /// Sum of the sun's illuminance on a plane that always faces it (direct normal) times duration. \[klx·h\]
     pub direct_light: f64,
-    /// Global horizontal illuminance. \[klx·h\]
+    /// Sum of global horizontal illuminance times duration. \[klx·h\]
     pub global_light: f64,
 }
 
-/// Summary of a weather file.
+/// Summary of a weather file: sums, counts of records, the test of its clock, and findings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Sums over all records.
+    /// Sums of irradiation and luminous exposure over all records.
     pub sums: Sums,
-    /// Hours with any light.
+    /// Total duration of the records with sunlight or skylight. \[h\]
     pub lit_hours: f64,
-    /// Hours of sunshine: 120 W/m² or more on a plane that faces the sun (WMO).
+    /// Total duration of sunshine: records with a direct normal irradiance of 120 W/m² or more (WMO). \[h\]
     pub sunshine_hours: f64,
     /// Number of records for which the file has plausible illuminances.
     pub with_illuminances: usize,
-    /// Number of records with light but without diffuse part.
+    /// Number of records with light of the sun but a diffuse horizontal irradiance of 0.
     pub without_sky: usize,
-    /// Number of missing intervals.
+    /// Number of intervals without a record between the first and the last record.
     pub missing: usize,
-    /// Test of the clock; `None` where it cannot be tested.
+    /// Test of the file's clock against its irradiances; `None` where they do not allow it.
     pub closure: Option<Closure>,
-    /// Findings, the reader's first.
+    /// Findings of the file's reader, followed by those of the examination.
     pub findings: Vec<Finding>,
 }
 
-/// Direct irradiance from which the sun shines (WMO). \[W/m²\]
+/// Direct normal irradiance from which a record counts as sunshine (WMO). \[W/m²\]
 const SUNSHINE: f64 = 120.0;
-/// Direct irradiance that a sun below the horizon never causes. \[W/m²\] Chosen: affects a warning only; two years with
-/// a wrong clock have 37 and 65 rows above it with the sun down.
+/// Direct irradiance above which a record with the sun below the horizon points to a wrong clock. \[W/m²\] Chosen:
+/// affects a warning only; two years with a wrong clock have 37 and 65 rows above it with the sun down.
 const BEAM_AT_NIGHT: f64 = 50.0;
-/// Number of rows per row with light at night that is tolerated: it may lie at the sunset of another year's day and is
-/// not evidence against the clock. Chosen: affects a warning only; of the 8,760 rows of a year 8 are tolerated.
+/// Number of rows for each of which one row with direct irradiance at night is tolerated: such a row may stem from the
+/// sunset of a day in another year and is not evidence against the clock. Chosen: affects a warning only; of the 8,760
+/// rows of a year 8 are tolerated.
 const STRAY: usize = 1000;
 
 /// Whether a number of days is that of whole years, with their leap days or without.
@@ -135,6 +137,7 @@ impl Weather {
         missing
     }
 
+    /// Adds findings about a clock that contradicts the file's irradiances or could not be tested.
     fn say_clock(&self, closure: Option<Closure>, findings: &mut Vec<Finding>) {
         match closure {
             Some(one) if self.tested.is_some() => {
@@ -171,6 +174,8 @@ impl Weather {
         }
     }
 
+    /// Adds all records to the summary's sums and counts, with findings about missing values and light at the wrong
+    /// time.
     fn sum_up(&self, summary: &mut Summary) -> Result<(), HourError> {
         let mut hours = self.hours(Reading { light: LightSource::File, offset: SunOffset::default() })?;
         let mut path = SunPath::new(&self.station);

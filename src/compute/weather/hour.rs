@@ -1,4 +1,4 @@
-//! Record with its sun: position in the lit part of the interval, and illuminances.
+//! Record of a weather file with its sun: position in the sunlit part of the interval, irradiances and illuminances.
 
 use super::record::{Field, Quantity, Record, Weather};
 use super::sun_path::{SunPath, SunPathError};
@@ -8,19 +8,20 @@ use crate::compute::sky::perez::{Air, PerezState, SOLAR_CONSTANT};
 /// Source of the illuminances of an hour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum LightSource {
-    /// Irradiances times the luminous efficacies of Perez 1990.
+    /// Illuminances computed from the file's irradiances by the luminous efficacies of Perez 1990.
     #[default]
     Efficacy,
-    /// Illuminances of the file where it has plausible ones, else as [`Self::Efficacy`].
+    /// Illuminances that the file states, where it has plausible ones; else those of [`Self::Efficacy`].
     File,
 }
 
-/// Offset of the intervals from the times that the file states.
+/// Offset of the records' intervals from the times that the weather file states.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SunOffset {
-    /// Number of minutes by which the intervals lie later.
+    /// Given offset by which the intervals lie later than the file states; negative: earlier. \[min\]
     Minutes(f64),
-    /// Offset at which global = diffuse + direct · sin h closes best.
+    /// Offset at which global = diffuse + direct · sin h (h: altitude of the sun) holds best for the file's
+    /// irradiances.
     Auto,
 }
 
@@ -30,98 +31,103 @@ impl Default for SunOffset {
     }
 }
 
-/// Altitude of the sun above which every sky is bright: in typical years (CZ2010, TMY3) rows that are dark at sunrise
-/// and sunset end at 8.6°, dark rows above are gaps. \[°\]
+/// Altitude of the sun above which a record without diffuse light is taken for a gap of the file: in typical years
+/// (CZ2010, TMY3) rows that are dark at sunrise and sunset end at 8.6°, dark rows above are gaps. \[°\]
 pub const HIGH_SUN: f64 = 10.0;
 
-/// Altitude of the sun below which no direct irradiance is computed: at 5° half a watt of rounding in global and
-/// diffuse irradiance causes 6 W/m², and a clock that is off by 10 min a third of it. \[°\]
+/// Altitude of the sun below which a missing direct normal irradiance is not computed from global and diffuse ones: at
+/// 5° half a watt of rounding in global and diffuse irradiance causes 6 W/m², and a clock that is off by 10 min a third
+/// of it. \[°\]
 pub(super) const MIN_ALTITUDE: f64 = 5.0;
 
-/// Maximum offset of the intervals, to both sides. \[min\] Chosen: limit of input; larger values are refused.
+/// Maximum offset of the intervals, later and earlier, from the times that the file states. \[min\] Chosen: limit of
+/// input; larger values are refused.
 pub const WIDEST_OFFSET: f64 = 180.0;
 
 /// Options for reading a weather file as illuminances.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reading {
-    /// Source of the illuminances.
+    /// Source of the illuminances: the file, or its irradiances with luminous efficacies.
     pub light: LightSource,
-    /// Offset of the clock.
+    /// Offset of the intervals from the times that the file states.
     pub offset: SunOffset,
 }
 
-/// Reason why an hour has no light data.
+/// Reason why the light of a record of a weather file is not available.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum HourError {
-    /// Missing code while the sun is up.
+    /// Value that the file marks as missing although the sun is up.
     #[error(
         "line {line}: {field} is missing while the sun is up ({time}); expected a number: repair the row, or leave the hour out"
     )]
     Missing {
-        /// Line of the file.
+        /// Line of the file, from 1.
         line: u32,
-        /// Name and number of the field.
+        /// Name and number of the field in the file.
         field: &'static str,
-        /// Day, begin and end of the interval.
+        /// Day, begin and end of the interval as text, in local standard time.
         time: String,
     },
-    /// Clock that cannot be tested with the file's data.
+    /// Clock that cannot be tested with the file's data, so that the automatic offset is not available.
     #[error(
         "\"auto\" needs global horizontal irradiances beside direct and diffuse ones, and hours with sun: give minutes"
     )]
     NoClosure,
-    /// Offset out of range. \[min\]
+    /// Offset of the intervals beyond ±[`WIDEST_OFFSET`]. \[min\]
     #[error("{0} min is out of range (allowed: −180 to 180)")]
     Offset(f64),
-    /// Index without a record.
+    /// Index beyond the records of the weather file.
     #[error("there is no record {0}")]
     Index(usize),
-    /// Position of the sun that cannot be computed.
+    /// Position of the sun that cannot be computed for the record's day.
     #[error(transparent)]
     Sun(#[from] SunPathError),
 }
 
-/// Interval with its light.
+/// Interval of a weather file with its sun, irradiances, illuminances and sky parameters.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hour {
-    /// Index of the record.
+    /// Index of the record in the weather file.
     pub index: usize,
-    /// Direction towards the sun's centre: in the middle of the lit part, of the whole interval when none is lit.
+    /// Direction towards the sun's centre (x east, y north, z up) in the middle of that part of the interval in which
+    /// it is above the horizon; if it stays below, in the middle of the interval.
     pub sun: Dir<World>,
-    /// Share of the interval with the sun's centre above the horizon.
+    /// Share of the interval in which the sun's centre is above the horizon, 0 … 1.
     pub lit: f64,
     /// Direct normal irradiance, mean over the interval; 0 with the sun down. \[W/m²\]
     pub direct_normal_irradiance: f64,
     /// Diffuse horizontal irradiance, mean over the interval. \[W/m²\]
     pub diffuse_horizontal_irradiance: f64,
-    /// Illuminance by the sun on a plane facing it. \[lx\]
+    /// Direct normal illuminance: by the sun on a plane that faces it, mean over the interval. \[lx\]
     pub direct_normal: f64,
-    /// Illuminance by the sky alone on the open horizontal plane. \[lx\]
+    /// Diffuse horizontal illuminance: by the sky alone on an unobstructed horizontal plane, mean over the interval.
+    /// \[lx\]
     pub diffuse_horizontal: f64,
-    /// Source of the illuminances.
+    /// Source of the illuminances: the file, or its irradiances with luminous efficacies.
     pub light: LightSource,
-    /// Perez parameters of the sky; `None` when sky and sun are dark.
+    /// Parameters of the Perez all-weather sky; `None` without light of sun or sky.
     pub state: Option<PerezState>,
 }
 
 impl Hour {
-    /// Whether there is any light.
+    /// Whether sun or sky give any light in the interval.
     pub fn is_lit(&self) -> bool {
         self.direct_normal > 0.0 || self.diffuse_horizontal > 0.0
     }
 
-    /// Whether the sky has no diffuse light although the sun is higher than `HIGH_SUN`.
+    /// Whether the record has no diffuse light although the sun is higher than [`HIGH_SUN`]: a gap of the file.
     pub fn lacks_sky(&self) -> bool {
         self.diffuse_horizontal <= 0.0 && self.sun.altitude().to_degrees() > HIGH_SUN
     }
 
-    /// Returns the direction of the sky's circumsolar peak: the sun, or the horizon below which it is.
+    /// Returns the direction of the sky model's circumsolar peak (x east, y north, z up): that of the sun, or, with the
+    /// sun below the horizon, the point of the horizon above it.
     pub fn sky_sun(&self) -> Dir<World> {
         if self.sun.vector().z >= 0.0 { self.sun } else { Dir::from_altitude_bearing(0.0, self.sun.bearing()) }
     }
 }
 
-/// Reader of hours one by one; consecutive ones are cheap.
+/// Reader that computes sun and light of a weather file's records one by one; consecutive records are cheap.
 #[derive(Debug, Clone)]
 pub struct Hours<'a> {
     weather: &'a Weather,
@@ -133,10 +139,11 @@ pub struct Hours<'a> {
 }
 
 impl Weather {
-    /// Creates a reader of records as light, in any order or as an iterator over all.
+    /// Creates a reader that computes sun and light of the file's records: in any order, or as an iterator over all.
     ///
     /// # Errors
-    /// Returns an error if the offset is out of range, or `"auto"` without data that the clock can be tested by.
+    /// Returns an error if the offset is out of range, or if it is to be automatic and the file has no data to test its
+    /// clock with.
     pub fn hours(&self, reading: Reading) -> Result<Hours<'_>, HourError> {
         let offset = match reading.offset {
             SunOffset::Minutes(minutes) if minutes.abs() <= WIDEST_OFFSET => minutes,
@@ -152,19 +159,20 @@ impl Weather {
 }
 
 impl Hours<'_> {
-    /// Returns the minutes by which intervals lie later than the records state, the file's own clock included.
+    /// Returns the offset by which intervals lie later than the records state: that which the file specifies plus that
+    /// of the reading. \[min\]
     pub fn offset(&self) -> f64 {
         self.offset
     }
 
-    /// Returns the whole hours of the reading's offset, in minutes: the file's clock is wrong by them (rows by UTC
-    /// under a header of local time), so that people and schedules move with the sun. The rest is the place of the
+    /// Returns the whole hours of the reading's offset, by which schedules move with the sun: by them the file's clock
+    /// is wrong (e.g. rows in UTC under a header of local time). \[min\] The rest of the offset is the position of the
     /// light within its interval and moves the sun alone.
     pub fn moved_clock(&self) -> i32 {
         self.moved_clock
     }
 
-    /// Returns the light of a record.
+    /// Computes sun, irradiances and illuminances of the record at `index`.
     ///
     /// # Errors
     /// Returns an error if a value is missing by day, or if there is no such record.
@@ -172,7 +180,8 @@ impl Hours<'_> {
         self.part(index, 0, 1)
     }
 
-    /// Returns the light in one of `parts` equal parts of a record's interval: the sun moves, its irradiances stay.
+    /// Computes sun, irradiances and illuminances in part number `part` (from 0) of `parts` equal parts of a record's
+    /// interval: every part has a sun position of its own, the irradiances are those of the whole interval.
     ///
     /// # Errors
     /// Returns an error if a value is missing by day, or if there is no such record.
@@ -185,8 +194,8 @@ impl Hours<'_> {
         self.with_sun(index, record.completed(whole), sun, lit)
     }
 
-    /// Returns the position of the sun in one of `parts` equal parts of a record's interval, and the share of the part
-    /// with the sun above the horizon.
+    /// Returns the position of the sun in part number `part` of `parts` equal parts of a record's interval, and the
+    /// share of the part in which the sun's centre is above the horizon.
     fn sun(&self, record: &Record, part: u32, parts: u32) -> (Dir<World>, f64) {
         let interval = f64::from(self.weather.interval) / f64::from(parts);
         let middle = record.middle_seconds(self.weather.interval, part, parts) / 60.0 + self.offset;
@@ -195,7 +204,8 @@ impl Hours<'_> {
         (sun, part.map_or(0.0, |(share, _)| share))
     }
 
-    /// Returns the light of a record; `irradiances`: its direct and diffuse ones.
+    /// Computes the light of the record at `index` from its direct and diffuse `irradiances` \[W/m²\] (`None`:
+    /// missing), the direction of its sun, and the share `lit` of the interval with the sun above the horizon.
     fn with_sun(
         &self,
         index: usize,
@@ -274,7 +284,8 @@ impl Hours<'_> {
 }
 
 impl Record {
-    /// Returns the irradiance that the row lacks and that follows from its two others.
+    /// Returns which irradiance, direct or diffuse, the record lacks, if it follows from its global and its other
+    /// irradiance.
     pub(super) fn completion(&self) -> Option<Field> {
         match (self.global, self.direct, self.diffuse) {
             (Some(_), None, Some(_)) => Some(Field::Direct),
@@ -285,7 +296,7 @@ impl Record {
 
     /// Returns direct normal and diffuse horizontal irradiance; where the row lacks one of them, by global = diffuse +
     /// direct · sin h with the sun of the interval and the share of it in which the sun is up. Near the horizon, where
-    /// sin h divides by next to nothing, all global irradiance is diffuse. \[W/m²\]
+    /// sin h is almost 0, all global irradiance counts as diffuse. \[W/m²\]
     fn completed(&self, (sun, lit): (Dir<World>, f64)) -> [Option<f64>; 2] {
         let sine = sun.vector().z.max(0.0);
         match (self.global, self.direct, self.diffuse) {
@@ -302,7 +313,8 @@ impl Record {
     }
 }
 
-/// Number of iterations from illuminance back to irradiance: each reduces the rest to a tenth. Held by
+/// Number of iterations by which the irradiance is found whose luminous efficacy gives a known illuminance: each
+/// reduces the residual to a tenth. Held by
 /// `tests/compute/weather.rs::horizontal_beams_and_illuminances_lead_back_to_the_same_hour`, to 1e-4.
 const ROUNDS: usize = 8;
 
@@ -316,12 +328,13 @@ impl Iterator for Hours<'_> {
     }
 }
 
-/// Returns the precipitable water for a dew point \[°C\]. \[cm\]
+/// Returns the precipitable water of the atmosphere for a dew point at the ground \[°C\]. \[cm\]
 fn water(dew_point: f64) -> f64 {
     (0.07 * dew_point - 0.075).exp()
 }
 
-/// Returns the file's own illuminances where both are present and plausible for their irradiances.
+/// Returns the direct normal and diffuse horizontal illuminance that the record states, if both are present and
+/// plausible for its irradiances `direct` and `diffuse` \[W/m²\]. \[lx\]
 fn reported_illuminances(record: &Record, [direct, diffuse]: [f64; 2]) -> Option<[f64; 2]> {
     let plausible = |light: Option<f64>, power: f64, least: f64, most: f64| match light {
         _ if power <= 0.0 => Some(0.0),
@@ -334,8 +347,9 @@ fn reported_illuminances(record: &Record, [direct, diffuse]: [f64; 2]) -> Option
     ])
 }
 
-/// Returns share and middle \[min\] of the part of an interval in which the sun's centre is above the horizon; of two
-/// parts the longer. `None` if it stays down.
+/// Returns share and middle of the part of an interval in which the sun's centre is above the horizon; of two such
+/// parts the longer. `from`, `to` and the middle are minutes after local midnight. `None` if the sun stays below the
+/// horizon.
 fn lit_part(path: &SunPath, from: f64, to: f64) -> Option<(f64, f64)> {
     /// Sine of an altitude that the sun does not cross between three places of an hour: within the 30 min between two
     /// of them it passes its highest or lowest place by no more than 1 − cos 3.75° = 0.002.

@@ -1,9 +1,9 @@
 //! Position of the sun at any minute of a day: the Solar Position Algorithm at midnights, smooth between them.
 //!
-//! Seen from the centre of the earth, the sun's declination and its hour angle against mean time change slowly and
-//! smoothly, so that a cubic through four midnights is as good as the algorithm itself (1e-7°) at a hundredth of its
-//! cost; the turn of the earth and the parallax of the place are exact. A year of hours with its sunrises costs some
-//! milliseconds.
+//! Seen from the centre of the earth, the sun's declination and the difference of its hour angle from that of the mean
+//! sun (the equation of time) change slowly and smoothly, so that a cubic through four midnights is as good as the
+//! algorithm itself (1e-7°) at a hundredth of its cost; the earth's rotation and the parallax at the location are
+//! exact. A year of hours with its sunrises costs some milliseconds.
 
 use crate::compute::weather::record::Station;
 use glam::DVec3;
@@ -11,36 +11,38 @@ use solar_positioning::time::JulianDate;
 use solar_positioning::{Location, SolarPositions, delta_t};
 use std::f64::consts::{PI, TAU};
 
-/// Day outside the algorithm's range.
+/// Error for a day outside the range of years of the Solar Position Algorithm.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("no position of the sun: {0}")]
 pub struct SunPathError(String);
 
-/// Sun seen from the centre of the earth at a moment.
+/// Position of the sun at one moment, seen from the centre of the earth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 struct Node {
-    /// Hour angle at Greenwich against mean time. \[rad\]
+    /// Equation of time as an angle: hour angle of the sun minus that of the mean sun. \[rad\]
     equation: f64,
     /// Declination. \[rad\]
     declination: f64,
-    /// Sine of the horizontal parallax.
+    /// Sine of the sun's horizontal parallax: radius of the earth over the distance of the sun.
     parallax: f64,
 }
 
-/// Sun over a place, day by day: [`Self::turn_to`] selects the day whose minutes [`Self::at`] returns.
+/// Positions of the sun at one location, day by day: [`Self::turn_to`] selects the day, [`Self::at`] returns the sun's
+/// direction at its minutes.
 #[derive(Debug, Clone)]
 pub struct SunPath {
     sin_latitude: f64,
     cos_latitude: f64,
     longitude: f64,
-    /// Days by which the place's clock is ahead of UT.
+    /// UTC offset of the location's clock, positive ahead of UTC. \[d\]
     ahead: f64,
-    /// Place seen from the centre of the earth in units of its radius, towards the meridian's point on the equator;
-    /// `axial` is its component towards the pole.
+    /// Position of the location relative to the centre of the earth, in units of the earth's equatorial radius:
+    /// distance from the axis; `axial` is the component along the axis towards the north pole.
     radial: f64,
     axial: f64,
     day: Option<i64>,
-    /// Nodes at local midnights: of the day before, the day's begin and end, and of the day after.
+    /// Positions at four local midnights, between which is interpolated: one day before the selected day's begin, at
+    /// its begin, at its end, and one day after its end.
     nodes: [Node; 4],
 }
 
@@ -48,8 +50,8 @@ pub struct SunPath {
 const FLATTENING: f64 = 0.996_647_19;
 
 impl SunPath {
-    /// Creates the path over a station at sea level; the elevation changes it by less than a thousandth of a second of
-    /// arc.
+    /// Creates the sun path of a station's location, taken at sea level: the elevation changes directions by less than
+    /// a thousandth of a second of arc.
     pub fn new(station: &Station) -> Self {
         let latitude = station.latitude.to_radians();
         let (sin_latitude, cos_latitude) = latitude.sin_cos();
@@ -87,7 +89,8 @@ impl SunPath {
         Ok(())
     }
 
-    /// Computes the sun's node at a local midnight.
+    /// Computes the position of the sun seen from the centre of the earth at the local midnight with which a day begins
+    /// (days since 1 January 1970).
     fn node(&self, day: i64) -> Result<Node, SunPathError> {
         let wrong = |error: solar_positioning::Error| SunPathError(error.to_string());
         let universal = day as f64 - self.ahead;
@@ -109,8 +112,8 @@ impl SunPath {
         Ok(Node { equation, declination: north.atan2(east.hypot(up)), parallax })
     }
 
-    /// Returns the unit vector to the sun's centre (x east, y north, z up; true altitude, no refraction), minutes after
-    /// the local midnight with which the day begins; up to some hours before and after it.
+    /// Returns the unit vector to the sun's centre (x east, y north, z up; true altitude, no refraction) `minutes`
+    /// after the local midnight with which the selected day begins; valid up to some hours before and after the day.
     pub fn at(&self, minutes: f64) -> DVec3 {
         let t = minutes / 1440.0;
         // Lagrange's polynomials on −1, 0, 1, 2.

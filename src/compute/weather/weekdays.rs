@@ -7,9 +7,9 @@ use super::record::{Record, Weather};
 const DAY: i64 = 86_400;
 
 impl Weather {
-    /// Returns the day of the week of every record, 0 (Monday) … 6 (Sunday): of its own date where all dates belong to
-    /// one calendar; in a spliced year of a running calendar, which begins with the weekday that the file states, else
-    /// with that of the first record's date.
+    /// Returns the day of the week of every record, 0 (Monday) … 6 (Sunday): that of its date where all dates belong to
+    /// one calendar; in a year spliced of several, that of a running calendar, which begins with the weekday that the
+    /// file states, else with that of the first record's date.
     pub fn weekdays(&self) -> Vec<u8> {
         let Some(first) = self.records.first() else { return Vec::new() };
         let stated = self.first_weekday.filter(|_| self.is_spliced());

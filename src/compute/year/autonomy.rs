@@ -12,31 +12,33 @@
 use super::hours::{Light, Step, occupied, share};
 use crate::compute::dot::wide;
 
-/// Daylight autonomy figures, one entry per place.
+/// Daylight autonomy figures of a year or a part of one: one value per calculation point, and sDA of all points. Shares
+/// are of the occupied steps, 0 … 1.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Autonomy {
-    /// Mean illuminance over all steps, nights included. \[lx\]
+    /// Mean illuminance of each point over all steps, nights included. \[lx\]
     pub mean: Vec<f64>,
-    /// Daylight autonomy DA300: share of the occupied steps with 300 lx or more.
+    /// Daylight autonomy DA300 of each point: share of the occupied steps with 300 lx or more.
     pub da_300: Vec<f64>,
-    /// Daylight autonomy DA500: share of the occupied steps with 500 lx or more.
+    /// Daylight autonomy DA500 of each point: share of the occupied steps with 500 lx or more.
     pub da_500: Vec<f64>,
-    /// Continuous daylight autonomy cDA300.
+    /// Continuous daylight autonomy cDA300 of each point: mean of min(1, E / 300 lx) over the occupied steps.
     pub cda_300: Vec<f64>,
-    /// UDI-n: share of the occupied steps with less than 100 lx.
+    /// UDI-n of each point, insufficient light: share of the occupied steps with less than 100 lx.
     pub udi_n: Vec<f64>,
-    /// UDI-s, supplementary: share of the occupied steps with 100 to below 300 lx.
+    /// UDI-s of each point, supplementary light: share of the occupied steps with 100 to below 300 lx.
     pub udi_s: Vec<f64>,
-    /// UDI-a, autonomous: share of the occupied steps with 300 to 3000 lx.
+    /// UDI-a of each point, autonomous light: share of the occupied steps with 300 to 3000 lx.
     pub udi_a: Vec<f64>,
-    /// UDI-x, exceeded: share of the occupied steps with more than 3000 lx.
+    /// UDI-x of each point, exceeded light: share of the occupied steps with more than 3000 lx.
     pub udi_x: Vec<f64>,
-    /// Spatial daylight autonomy sDA300/50%: share of the places.
+    /// Spatial daylight autonomy sDA300/50%: share of the points with DA300 ≥ 50 %, 0 … 1.
     pub sda_300_50: f64,
 }
 
 impl Autonomy {
-    /// Computes the figures of a year or a part of one.
+    /// Computes the autonomy figures of a year or a part of one from the illuminances `light` of all points in all
+    /// `steps`.
     pub fn of(steps: &[Step], light: Light<'_>) -> Self {
         let occupied = occupied(steps);
         let mut all = vec![0.0; light.places()];
@@ -72,7 +74,7 @@ impl Autonomy {
     }
 }
 
-/// Adds a function of the illuminance of every place to its sum.
+/// Adds `of(E)` of the illuminance E \[lx\] of every point, given in `row`, to the point's entry of `sums`.
 fn add(sums: &mut [f64], row: &[f64], of: impl Fn(f64) -> f64) {
     wide(|| sums.iter_mut().zip(row).for_each(|(sum, e)| *sum += of(*e)));
 }
@@ -81,20 +83,21 @@ fn one_if(yes: bool) -> f64 {
     f64::from(u8::from(yes))
 }
 
-/// Exposure of the places to direct sun.
+/// Annual exposure of the calculation points to direct sunlight (IES LM-83-12, ASE).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Exposure {
-    /// Occupied hours with 1000 lx or more with the shading in use, by place.
+    /// Occupied hours of each point with 1000 lx or more of direct sunlight, with the shading in use. \[h\]
     pub hours_1000: Vec<f64>,
-    /// Occupied hours with 1000 lx or more with the shading retracted, by place.
+    /// Occupied hours of each point with 1000 lx or more of direct sunlight, with the shading retracted. \[h\]
     pub ase_hours_1000: Vec<f64>,
-    /// ASE1000,250: share of the places with more than 250 occupied hours of 1000 lx or more, shading retracted.
+    /// Annual sunlight exposure ASE1000,250: share of the points with more than 250 occupied hours of 1000 lx or more
+    /// of direct sunlight, shading retracted, 0 … 1.
     pub ase_1000_250: f64,
 }
 
 impl Exposure {
-    /// Computes the exposure from the unscattered and unreflected light of the sun, with the shading in use and
-    /// retracted; `length` of a step in hours.
+    /// Computes the exposure from the illuminances by unscattered and unreflected sunlight in all `steps`: `in_use`
+    /// with the shading in use, `retracted` with the shading retracted. `length`: duration of a step. \[h\]
     pub fn of(steps: &[Step], in_use: Light<'_>, retracted: Light<'_>, length: f64) -> Self {
         let occupied = occupied(steps);
         let hours = |sun: Light<'_>| -> Vec<f64> {

@@ -1,4 +1,5 @@
-//! Operation of blinds by IES LM-83-12, § 2.2.6, for spatial daylight autonomy, whatever rule they follow in use.
+//! Operation of blinds by IES LM-83-12, § 2.2.6, for spatial daylight autonomy, independent of the control that the
+//! blinds have in use.
 //!
 //! Hour by hour: while more than 2 % of the analysis points have 1000 lx or more directly from the sun, a group of
 //! apertures closes, one after another. A group consists of the apertures of the same plane with the same product. The
@@ -9,42 +10,47 @@ use super::autonomy::Autonomy;
 use super::hours::{Light, Step};
 use crate::compute::estimate::Estimate;
 
-/// Illuminance by direct sun from which a point counts. \[lx\] Source: IES LM-83-12, § 2.2.6.
+/// Illuminance by direct sun from which an analysis point counts as sunlit. \[lx\] Source: IES LM-83-12, § 2.2.6.
 pub const DIRECT_SUN: f64 = 1000.0;
-/// Maximum share of the points that may have [`DIRECT_SUN`]. Source: IES LM-83-12, § 2.2.6.
+/// Maximum share of the analysis points that may have [`DIRECT_SUN`] before a group of blinds closes. Source: IES
+/// LM-83-12, § 2.2.6.
 pub const SHARE: f64 = 0.02;
 
-/// Direct sun at the analysis points through one group of apertures \[lx\], while it is open and while it is closed.
+/// Illuminances by direct sun at the analysis points through one group of apertures, with its blinds open and with its
+/// blinds closed. \[lx\]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct GroupSun {
-    /// Illuminance with the group open, one entry per point. \[lx\]
+    /// Illuminance by direct sun with the group's blinds open, one entry per analysis point. \[lx\]
     pub open: Vec<Estimate>,
-    /// Illuminance with the group closed, one entry per point. \[lx\]
+    /// Illuminance by direct sun with the group's blinds closed, one entry per analysis point. \[lx\]
     pub closed: Vec<Estimate>,
 }
 
-/// Closed groups of one step, and whether the errors of the sun's light could change them.
+/// Groups of apertures whose blinds are closed in one step, and whether the errors of the sun's illuminances could
+/// change them.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Worked {
-    /// Whether each group is closed.
+    /// Whether the blinds of each group are closed.
     pub closed: Vec<bool>,
-    /// Whether other groups would be closed with less or more sun, within its error.
+    /// Whether other groups would be closed with less or more illuminance by direct sun, within its error.
     pub unsure: bool,
 }
 
 impl Worked {
-    /// Creates a step in which all of `groups` groups are open.
+    /// Creates a step in which the blinds of all `groups` groups are open.
     pub fn open(groups: usize) -> Self {
         Self { closed: vec![false; groups], unsure: false }
     }
 }
 
-/// Determines the groups that close in one step.
+/// Determines the groups of apertures whose blinds close in one step by the rule of IES LM-83-12.
 pub fn worked(groups: &[GroupSun]) -> Worked {
     let [closed, less, more] = [0.0, -1.0, 1.0].map(|sign| one_by_one(groups, sign));
     Worked { unsure: less != closed || more != closed, closed }
 }
 
+/// Closes groups one after another until few enough points are sunlit, and returns whether each is closed; `sign`:
+/// multiple of the illuminances' errors that is added to them.
 fn one_by_one(groups: &[GroupSun], sign: f64) -> Vec<bool> {
     let points = groups.first().map_or(0, |group| group.open.len());
     let light = |one: Estimate| (one.value + sign * one.error).max(0.0);
@@ -76,19 +82,20 @@ fn one_by_one(groups: &[GroupSun], sign: f64) -> Vec<bool> {
     }
 }
 
-/// Annual results with blinds operated by IES LM-83-12.
+/// Annual results of a room whose blinds are operated by the rule of IES LM-83-12.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Blinds {
-    /// Spatial daylight autonomy sDA300/50% with the states of the rule.
+    /// Spatial daylight autonomy sDA300/50% with the blinds operated by the rule, 0 … 1.
     pub sda_300_50: f64,
-    /// Occupied hours that each group is closed. \[h\]
+    /// Occupied hours with closed blinds, one entry per group of apertures. \[h\]
     pub closed_hours: Vec<f64>,
 }
 
 impl Blinds {
-    /// Computes the results of a year or a part of one, with `light` in the states of the rule and the closed groups
-    /// `worked` of every step; `length` of a step in hours. `sign`: −1 and 1 where steps that are unsure are to count
-    /// as dark and closed least, or as lit and closed most; 0 to use them as given.
+    /// Computes the results of a year or a part of one from the illuminances `light` with the blinds operated by the
+    /// rule, and the closed groups `worked` of every step. `length`: duration of a step. \[h\] `sign`: treatment of
+    /// unsure steps: −1 counts them as dark with all blinds open (lower limit), 1 as lit with all blinds closed (upper
+    /// limit), 0 uses them as given.
     pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
         let mut values: Vec<f64> = (0..steps.len()).flat_map(|k| light.row(k).iter().copied()).collect();
         for (row, _) in values.chunks_exact_mut(light.places()).zip(worked).filter(|(_, one)| one.unsure && sign != 0.0)

@@ -1,30 +1,32 @@
 //! Glare of an observer through the occupied steps: the simplified daylight glare probability DGPs = 6.22e-5 E_v +
 //! 0.184 (Wienold 2009), not limited.
 //!
-//! It is valid only while neither the sun's disc nor a lobe of it reaches the eye. Steps with direct sun at the eye are
-//! left out and counted; lobes are not considered here, and so the figure is too low where a system has any.
+//! It is valid only while neither the sun's disc nor a lobe of sunlight scattered by the system reaches the eye. Steps
+//! with direct sun at the eye are left out and counted; lobes are not considered here, so that the figure is too low
+//! where a system has any.
 
 use super::hours::{Light, Step, share};
 use crate::compute::glare::dgps;
 
-/// Limits of the classes of EN 17037, Annex E: DGP that is exceeded in at most 5 % of the usage time.
+/// Limits of the levels of glare protection of EN 17037, Annex E (high, medium, minimum): DGP that may be exceeded in
+/// at most 5 % of the usage time.
 pub const LIMITS: [f64; 3] = [0.35, 0.40, 0.45];
-/// Share of the time in which a limit may be exceeded. Source: EN 17037, Annex E.
+/// Share of the usage time in which a limit of DGP may be exceeded. Source: EN 17037, Annex E.
 const EXCEEDED: f64 = 0.05;
 
-/// Annual glare figures of one observer.
+/// Annual figures of the simplified glare probability DGPs of one observer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Glare {
     /// Number of occupied steps with direct sun at the eye, which are left out of the other figures.
     pub sun_at_eye: usize,
-    /// DGPs that is exceeded in 5 % of the other occupied steps.
+    /// DGPs that is exceeded in 5 % of the occupied steps without direct sun at the eye.
     pub dgps_5_percent: f64,
-    /// Shares of the other occupied steps in which DGPs exceeds each of [`LIMITS`].
+    /// Shares of the occupied steps without direct sun at the eye in which DGPs exceeds each of [`LIMITS`].
     pub above: [f64; 3],
 }
 
-/// Computes the glare figures of every observer; `sun`: direct sun at the eyes, where a system transmits it
-/// unscattered.
+/// Computes the annual DGPs figures of every observer. `eyes`: vertical illuminances at the observers' eyes \[lx\];
+/// `sun`: the part of them by direct sun that a system transmits unscattered, `None` if none does.
 pub fn glare(steps: &[Step], eyes: Light<'_>, sun: Option<Light<'_>>) -> Vec<Glare> {
     let of = |eye: usize| {
         let occupied = || (0..steps.len()).filter(|&k| steps[k].occupied);

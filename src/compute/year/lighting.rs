@@ -1,31 +1,31 @@
-//! Energy for electric lighting beside daylight, by steps of a year. The result has the unit of EN 15193-1's LENI,
-//! kWh/(m² a), and is not that standard's tabulated method.
+//! Energy for electric lighting that supplements daylight, by steps of a year. The result has the unit of EN 15193-1's
+//! LENI, kWh/(m² a), and is not that standard's tabulated method.
 
 use super::hours::{Light, Step};
 
-/// Control of the electric lighting by daylight.
+/// Daylight-linked control of the electric lighting.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Control {
-    /// Always on while the room is occupied.
+    /// No control: full power while the room is occupied.
     None,
-    /// Switched on while daylight does not suffice.
+    /// Switching control (on–off): full power while daylight alone does not reach the target illuminance.
     OnOff,
-    /// Switched in the given number of steps of power.
+    /// Switching in the given number of equal steps of power.
     Stepped(u32),
-    /// Daylight-linked dimming.
+    /// Dimming to the illuminance that daylight lacks.
     Dimming {
-        /// Minimum light, as a share; below 1.
+        /// Minimum luminous flux, as a share of the full flux; below 1.
         min_light: f64,
-        /// Power at the minimum light, as a share.
+        /// Power at the minimum flux, as a share of the installed power.
         min_power: f64,
-        /// Whether the lighting is switched off when daylight suffices.
+        /// Whether the lighting is switched off when daylight alone reaches the target illuminance.
         off: bool,
     },
 }
 
 impl Control {
-    /// Returns the share of the installed power for the share `open` of the target illuminance that daylight does not
-    /// provide, 0 … 1. 0 is off.
+    /// Returns the share of the installed power, 0 … 1, when daylight lacks the share `open` (0 … 1) of the target
+    /// illuminance. 0 is off.
     pub fn power(self, open: f64) -> f64 {
         match self {
             Self::None => 1.0,
@@ -40,48 +40,49 @@ impl Control {
     }
 }
 
-/// Zone whose lighting follows the mean illuminance of some places.
+/// Zone of a room whose electric lighting is controlled by the mean daylight illuminance of some calculation points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Zone {
-    /// Indices of the places.
+    /// Indices of the calculation points.
     pub places: Vec<usize>,
-    /// Share of the installed power.
+    /// Share of the room's installed power in this zone, 0 … 1.
     pub share: f64,
 }
 
-/// Electric lighting of a room.
+/// Electric lighting of a room: installed power, target illuminance, control and zones.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lamps {
-    /// Installed power. \[W/m²\]
+    /// Installed power per floor area. \[W/m²\]
     pub power: f64,
-    /// Target illuminance. \[lx\]
+    /// Target illuminance of daylight and electric light together. \[lx\]
     pub target: f64,
-    /// Control by daylight.
+    /// Control of the lighting by daylight.
     pub control: Control,
-    /// Power while switched off, nights included. \[W/m²\]
+    /// Standby power per floor area while the lighting is switched off, nights included. \[W/m²\]
     pub standby: f64,
-    /// Zones; at least one.
+    /// Zones of the room, each with a sensor; at least one.
     pub zones: Vec<Zone>,
 }
 
-/// Lighting energy of a year. \[kWh/m²\]
+/// Energy of the electric lighting of a year, per floor area. \[kWh/m²\]
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Energy {
-    /// Energy of each month. \[kWh/m²\]
+    /// Energy per floor area of each month. \[kWh/m²\]
     pub months: [f64; 12],
-    /// Energy without any control, with the lighting on in all occupied steps. \[kWh/m²\]
+    /// Energy per floor area without control: full power in all occupied steps. \[kWh/m²\]
     pub full: f64,
 }
 
 impl Energy {
-    /// Returns the energy of all months. \[kWh/m²\]
+    /// Returns the energy per floor area of all months together. \[kWh/m²\]
     pub fn total(&self) -> f64 {
         self.months.iter().sum()
     }
 }
 
 impl Lamps {
-    /// Computes the power in a step. \[W/m²\]
+    /// Computes the power per floor area in one step; `light`: daylight illuminance of every calculation point \[lx\].
+    /// \[W/m²\]
     pub fn watts(&self, occupied: bool, light: &[f64]) -> f64 {
         let zone = |zone: &Zone| {
             let reading = zone.places.iter().map(|&place| light[place]).sum::<f64>() / zone.places.len().max(1) as f64;
@@ -92,7 +93,7 @@ impl Lamps {
         self.zones.iter().map(zone).sum()
     }
 
-    /// Computes the energy over steps of `length` hours.
+    /// Computes the energy from the daylight illuminances `light` \[lx\] of all `steps`, each `length` hours long.
     pub fn energy(&self, steps: &[Step], light: Light<'_>, length: f64) -> Energy {
         let mut energy = Energy::default();
         for (k, step) in steps.iter().enumerate() {

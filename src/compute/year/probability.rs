@@ -4,9 +4,10 @@
 use super::glare::LIMITS;
 use super::hours::share;
 
-/// Classes of EN 17037, Annex E, in the order of the rising [`LIMITS`].
+/// Levels of glare protection of EN 17037, Annex E, in the order of the rising [`LIMITS`] of DGP.
 pub const CLASSES: [&str; 3] = ["high", "medium", "minimum"];
-/// Share of the usage time in which a class's limit may be exceeded. Source: EN 17037, Annex E.
+/// Share of the usage time in which the limit of DGP of a level of glare protection may be exceeded. Source: EN 17037,
+/// Annex E.
 const EXCEEDED: f64 = 0.05;
 
 /// Annual DGP figures of one observer.
@@ -19,7 +20,7 @@ pub struct Probability {
 }
 
 impl Probability {
-    /// Computes the figures from the DGP of all occupied steps, dark ones as 0.
+    /// Computes the annual figures from `values`, the DGP in every occupied step, 0 in dark ones.
     pub fn of(mut values: Vec<f64>) -> Self {
         values.sort_by(|a, b| b.total_cmp(a));
         let rank = (EXCEEDED * values.len() as f64) as usize;
@@ -29,7 +30,8 @@ impl Probability {
         }
     }
 
-    /// Returns the best class whose limit is met; `None` where not even the lowest is.
+    /// Returns the best of [`CLASSES`], the levels of glare protection, that the DGP exceeded in 5 % of the occupied
+    /// steps allows; `None` if it is above all [`LIMITS`].
     pub fn class(&self) -> Option<&'static str> {
         LIMITS.iter().zip(CLASSES).find(|(limit, _)| self.dgp_5_percent <= **limit).map(|(_, class)| class)
     }

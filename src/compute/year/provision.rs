@@ -8,57 +8,63 @@
 
 use super::hours::{Light, Step, share};
 
-/// Name, target and minimum illuminance \[lx\] of the levels. Source: EN 17037, Annex A.
+/// Levels of daylight provision: name, target illuminance and minimum target illuminance \[lx\]. Source: EN 17037,
+/// Annex A.
 pub const LEVELS: [(&str, f64, f64); 3] = [("minimum", 300.0, 100.0), ("medium", 500.0, 300.0), ("high", 750.0, 500.0)];
-/// Share of the plane that has to reach the target. Source: EN 17037, Annex A.
+/// Share of the reference plane that has to reach the target illuminance. Source: EN 17037, Annex A.
 const TARGET_AREA: f64 = 0.5;
-/// Share of the plane that has to reach the minimum. Source: EN 17037, Annex A.
+/// Share of the reference plane that has to reach the minimum target illuminance. Source: EN 17037, Annex A.
 const MINIMUM_AREA: f64 = 0.95;
-/// Share of the daylight hours that is required, by point and by hour. Source: EN 17037, Annex A.
+/// Share of the daylight hours in which the illuminances have to be reached, in both readings (by point and by hour).
+/// Source: EN 17037, Annex A.
 const HALF: f64 = 0.5;
 
-/// Shares of places and hours in which an illuminance is reached.
+/// Shares of the calculation points and of the daylight hours for which a required illuminance is reached, by the two
+/// readings of EN 17037.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Reached {
-    /// Share of the places that reach the illuminance in half of the daylight hours.
+    /// Share of the calculation points that reach the illuminance in half of the daylight hours, 0 … 1.
     pub area_by_point: f64,
-    /// Share of the daylight hours in which enough of the places reach the illuminance.
+    /// Share of the daylight hours in which the required share of the points reaches the illuminance, 0 … 1.
     pub time_by_hour: f64,
 }
 
-/// Shares for one level of daylight provision.
+/// Shares of points and hours that reach the illuminances of one level of daylight provision.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Level {
-    /// Shares for the target illuminance, required on half of the plane.
+    /// Shares for the target illuminance, which is required on half of the reference plane.
     pub target: Reached,
-    /// Shares for the minimum illuminance, required on 95 % of the plane.
+    /// Shares for the minimum target illuminance, which is required on 95 % of the reference plane.
     pub minimum: Reached,
 }
 
 impl Level {
-    /// Whether the level is met by point.
+    /// Whether the level is met in the reading by point: half and 95 % of the points reach their illuminances in half
+    /// of the daylight hours.
     pub fn met_by_point(&self) -> bool {
         self.target.area_by_point >= TARGET_AREA && self.minimum.area_by_point >= MINIMUM_AREA
     }
 
-    /// Whether the level is met by hour.
+    /// Whether the level is met in the reading by hour: in half of the daylight hours enough of the points reach their
+    /// illuminances.
     pub fn met_by_hour(&self) -> bool {
         self.target.time_by_hour >= HALF && self.minimum.time_by_hour >= HALF
     }
 }
 
-/// Daylight provision of a whole year.
+/// Daylight provision by EN 17037 of a whole year.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Provision {
-    /// Median of the diffuse horizontal illuminance in the daylight hours. \[lx\]
+    /// Median of the diffuse horizontal illuminance outside over the daylight hours. \[lx\]
     pub median_diffuse: f64,
-    /// Levels in the order of [`LEVELS`].
+    /// Shares for each level, in the order of [`LEVELS`].
     pub levels: [Level; 3],
 }
 
 impl Provision {
-    /// Computes the daylight provision of a whole year; of equal hours at the border of the daylight hours the earlier
-    /// count.
+    /// Computes the daylight provision from the illuminances `light` of all points in all `steps` of a whole year.
+    /// Daylight hours are the half of the steps with the most diffuse horizontal illuminance; of equal ones the
+    /// earlier.
     pub fn of(steps: &[Step], light: Light<'_>) -> Self {
         let mut day: Vec<usize> = (0..steps.len()).collect();
         let brightness = |k: usize| steps[k].diffuse_horizontal;

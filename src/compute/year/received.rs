@@ -1,7 +1,7 @@
-//! Light that an aperture receives from sky, ground and skyline through every cell of its hemisphere, under one outside
-//! after the other: directions and weights are computed once.
+//! Illuminance (or irradiance) that an aperture receives from sky, ground and skyline through every cell of its outer
+//! hemisphere, for many outside conditions one after the other: directions and weights are computed once.
 //!
-//! Outsides may be in photometric units or in W/m²: the results have the same unit.
+//! Outside conditions may be photometric (results in lx) or radiometric (results in W/m²).
 
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, World};
@@ -9,29 +9,32 @@ use crate::compute::sky::{Distribution, Frame, Outside, SkySamples, incident_ill
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Maximum distance between directions in a cell. \[rad\] Chosen: cost; held by the test
+/// Maximum angle between the directions in which a cell's sky is sampled. \[rad\] Chosen: cost; held by the test
 /// `a_clear_sky_is_gathered_as_by_integration` (2e-3), and judged in every year.
 const SPACING: f64 = 4.0 * PI / 180.0;
-/// Number of directions along a side of a cell where an obstruction hides sky and ground. Chosen: cost; held by the
-/// test `what_stands_before_it_takes_its_part` (1 %), and judged in every year.
+/// Number of sampling directions along each side of a cell if obstructions hide sky or ground. Chosen: cost; held by
+/// the test `what_stands_before_it_takes_its_part` (1 %), and judged in every year.
 const POINTS: usize = 6;
-/// Relative accuracy of ground and skyline, which are the same for all hours. Chosen: negligible beside [`JUDGED`].
+/// Relative accuracy of the light from ground and skyline, whose weights are the same for all hours. Chosen: negligible
+/// beside [`JUDGED`].
 const RELATIVE: f64 = 1e-6;
 
-/// Cells of an aperture's hemisphere with the weights of sky, ground and skyline.
+/// Cells of an aperture's outer hemisphere, with the weights by which they receive light from sky, ground and skyline.
 #[derive(Debug, Clone)]
 pub struct Received {
     cells: RingBasis,
     frame: Frame,
     samples: SkySamples,
-    /// Irradiance by a ground of radiance 1, one entry per cell; `skyline` is that by a skyline.
+    /// Illuminance through each cell by a ground of luminance 1, one entry per cell \[sr\]; `skyline` has the same by a
+    /// skyline of luminance 1.
     ground: Vec<f64>,
     skyline: Vec<f64>,
     altitude: f64,
 }
 
 impl Received {
-    /// Prepares the weights for a surface's frame, above a flat skyline of a given altitude \[rad\], 0 without one.
+    /// Prepares the weights of `cells` for an aperture whose axes are given by `frame`, with a skyline of uniform
+    /// `altitude` \[rad\], 0 without one.
     pub fn new(cells: RingBasis, frame: Frame, altitude: f64) -> Self {
         let black = || Outside::new(Distribution::uniform(), 0.0).ok();
         let of = |outside: Option<Outside>| match outside {
@@ -45,14 +48,14 @@ impl Received {
         Self { cells, frame, samples, ground, skyline, altitude }
     }
 
-    /// Returns the cells.
+    /// Returns the cells of the aperture's hemisphere.
     pub const fn cells(&self) -> &RingBasis {
         &self.cells
     }
 
-    /// Computes the light received through every cell. `eyes`: points of the aperture, in the world's axes from the
-    /// room's origin, over which obstructed sky and ground are averaged; none for an outside that depends on directions
-    /// alone.
+    /// Computes the illuminance on the aperture through every cell \[lx, or W/m² if `outside` is radiometric\]. `eyes`:
+    /// points of the aperture, in the world's axes from the room's origin \[m\], over which obstructed sky and ground
+    /// are averaged; empty for an outside that depends on directions alone.
     pub fn through(&self, outside: &Outside, eyes: &[DVec3]) -> Vec<f64> {
         let by_points = outside.surroundings().is_some()
             || outside.is_piecewise_constant()
@@ -94,8 +97,9 @@ impl Received {
         Dir::from_unit(self.frame.direction(theta, phi))
     }
 
-    /// Returns the finer cells by which the error is estimated, and the light received through them by integration,
-    /// from one point if the outside has one.
+    /// Returns cells of half the width, by which errors are estimated, and the illuminance through each of them by
+    /// accurate integration \[lx, or W/m² if `outside` is radiometric\], at the point that `outside` is seen from, if
+    /// it has one.
     pub fn judged(&self, outside: &Outside) -> (RingBasis, Vec<f64>) {
         let finer = self.cells.refined(2);
         let received = values(outside, &finer, &self.frame, JUDGED);

@@ -1,11 +1,11 @@
 //! Solar energy transmitted directly through apertures, by month and by hour of the day.
 //!
-//! Power through an aperture is Σᵢ τₛ(i) Eᵢ + τₛ(sun) E_sun, with the solar transmittance τₛ from a direction to the
-//! whole hemisphere inside, and irradiances by cell of its own hemisphere. It is *directly transmitted*: secondary
-//! heat, absorbed by glass and slats and emitted to the room, is left out, so that this is not a solar factor (EN 410,
-//! ISO 9050, EN ISO 52022-3 add that secondary part).
+//! Power through an aperture is Σᵢ τₛ(i) Eᵢ + τₛ(sun) E_sun, with the directional-hemispherical solar transmittance τₛ,
+//! and irradiances by cell of the aperture's outer hemisphere. It is *directly transmitted*: secondary heat, absorbed
+//! by glass and slats and emitted to the room, is left out, so that this is not a solar factor (EN 410, ISO 9050, EN
+//! ISO 52022-3 add that secondary part).
 
-/// Month and hour of a step.
+/// Month and hour of the day of a time step, by which energy is summed up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct When {
     /// Month, 1 … 12.
@@ -14,12 +14,13 @@ pub struct When {
     pub hour: u8,
 }
 
-/// Directly transmitted solar energy. \[kWh\]
+/// Solar energy transmitted directly through apertures, without secondary heat, by month and by hour of the day.
+/// \[kWh\]
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Transmitted {
     /// Energy of each month. \[kWh\]
     pub months: [f64; 12],
-    /// Energy by hour of the day, over all days. \[kWh\]
+    /// Energy of each hour of the day, summed over all days. \[kWh\]
     pub hours: [f64; 24],
 }
 
@@ -27,7 +28,8 @@ pub struct Transmitted {
 const SUMMER: std::ops::Range<usize> = 3..9;
 
 impl Transmitted {
-    /// Sums up the energy of power \[W\] in steps of `length` hours.
+    /// Sums up the energy of the transmitted power `watts` \[W\], one value per step; `length`: duration of a step
+    /// \[h\].
     pub fn of(steps: &[When], watts: &[f64], length: f64) -> Self {
         let mut energy = Self::default();
         for (when, watts) in steps.iter().zip(watts) {
@@ -38,22 +40,22 @@ impl Transmitted {
         energy
     }
 
-    /// Returns the energy of all steps. \[kWh\]
+    /// Returns the transmitted energy of all steps. \[kWh\]
     pub fn total(&self) -> f64 {
         self.months.iter().sum()
     }
 
-    /// Returns the energy from April to September. \[kWh\]
+    /// Returns the transmitted energy from April to September. \[kWh\]
     pub fn summer(&self) -> f64 {
         self.months[SUMMER].iter().sum()
     }
 
-    /// Returns the energy from October to March. \[kWh\]
+    /// Returns the transmitted energy from October to March. \[kWh\]
     pub fn winter(&self) -> f64 {
         self.total() - self.summer()
     }
 
-    /// Returns the energy multiplied by a factor, as the reciprocal of an area.
+    /// Returns the energy multiplied by `factor`, e.g. by 1 / area \[1/m²\] for the energy per area. \[kWh/m²\]
     pub fn scaled(mut self, factor: f64) -> Self {
         self.months.iter_mut().chain(&mut self.hours).for_each(|energy| *energy *= factor);
         self

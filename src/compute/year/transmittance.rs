@@ -1,5 +1,5 @@
-//! Directional-hemispherical transmittance of a system for any direction: a reduced form of its data for where only the
-//! sum of the transmitted light is needed.
+//! Directional-hemispherical transmittance of a system for any direction: reduced data for where only the total
+//! transmitted flux is needed.
 //!
 //! | data | values |
 //! | --- | --- |
@@ -20,25 +20,27 @@ use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-/// Number of steps of the table by profile angle: 1°. Chosen: cost; what is between them is stated as error. Held by
-/// the test `matt_slats_by_profile_are_those_of_the_goniophotometer` (error below 0.01).
+/// Number of steps of the table over profile angle from −90° to 90°: 1° each. Chosen: cost; the interpolation between
+/// them is part of the stated error. Held by the test `matt_slats_by_profile_are_those_of_the_goniophotometer` (error
+/// below 0.01).
 const STEPS: usize = 180;
-/// Number of gaps of the table by profile angle in which the middle is computed too, for the error: every tenth gap.
-/// Chosen: cost; affects stated errors only.
+/// Number of intervals of the table over profile angle whose middle is computed too, to estimate the error of the
+/// interpolation: every tenth one. Chosen: cost; affects stated errors only.
 const ASKED: usize = 18;
-/// Number of directions along a side of a cell for its mean. Chosen: cost; results change within their stated error,
-/// which cells of half the width show.
+/// Number of directions along each side of a cell over which τ is averaged. Chosen: cost; results change within their
+/// stated error, which cells of half the width show.
 const POINTS: usize = 3;
 /// Number of Gauss points across a ring for functions of the polar angle alone: exact for polynomials of degree 7.
 const ACROSS: usize = 4;
-/// Maximum number of cells of a division by which light is summed up; finer data are summed up by Klems' cells. Chosen:
-/// cost; held by the test `cells_keep_their_sums_and_are_linear_between` (1 % for finer data).
+/// Maximum number of cells of a division of the hemisphere over which transmitted light is summed up; light of finer
+/// data is summed up over the Klems basis. Chosen: cost; held by the test
+/// `cells_keep_their_sums_and_are_linear_between` (1 % for finer data).
 const MOST_CELLS: usize = 400;
 /// Step of the emergent cells over which scattered light is summed. \[rad\] Chosen: cost; only the sum over all cells
 /// is used.
 const EMERGENT: f64 = 10.0 * PI / 180.0;
 
-/// Directional-hemispherical transmittance τ of a system by direction of incidence.
+/// Directional-hemispherical transmittance τ of a system, visible or solar, as a function of the incident direction.
 #[derive(Debug, Clone)]
 pub struct DirectionalTransmittance {
     regular: Option<AngularTransmittance>,
@@ -46,12 +48,12 @@ pub struct DirectionalTransmittance {
     error: f64,
 }
 
-/// Transmittance that is not stored separately as regular.
+/// Transmittance of the scattered light, by the kind of the data that it is computed from.
 #[derive(Debug, Clone)]
 enum Rest {
     None,
     Even(AngularTransmittance),
-    /// Cells of the grid, and one value per cell.
+    /// Incident cells, and τ of each cell.
     Cells(Box<Grid>, Vec<f64>),
     Directions(Arc<Indicatrices>, Box<Lattice>),
     Tree(Box<TensorTree>),
@@ -61,17 +63,18 @@ enum Rest {
     },
 }
 
-/// Interpolation between the directions of the data.
+/// Interpolation of τ between the incident directions of the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Between {
-    /// Linear interpolation.
+    /// Linear interpolation between the directions or cell centres of the data.
     Linear,
-    /// One value per cell; single directions represent the directions nearest to them.
+    /// Piecewise constant: one value per cell; for data at single directions, the value of the nearest one.
     Constant,
 }
 
 impl DirectionalTransmittance {
-    /// Creates the transmittance of BSDF data; `error`: absolute uncertainty of their transmittances.
+    /// Creates the transmittance from BSDF data; `error`: absolute uncertainty of the data's directional-hemispherical
+    /// transmittances.
     pub fn of_data(btdf: &Btdf, error: f64) -> Self {
         let scattered = match &btdf.scattered {
             None => Rest::None,
@@ -88,8 +91,8 @@ impl DirectionalTransmittance {
         Self { regular: btdf.regular.clone(), scattered, error }
     }
 
-    /// Creates the transmittance of a described system whose light depends on the profile angle alone; `None` for
-    /// others.
+    /// Creates the transmittance from the optical model of a described system, as a table over profile angle; `None` if
+    /// the model's scattering depends on more than the profile angle.
     pub fn by_profile(model: &dyn OpticalModel) -> Option<Self> {
         let upright = model.by_profile_alone()?;
         let emergent = RingBasis::even(EMERGENT);
@@ -123,12 +126,13 @@ impl DirectionalTransmittance {
         Some(Self { regular: None, scattered: Rest::Profile { upright, tau }, error: uncertainty + between })
     }
 
-    /// Returns the absolute uncertainty of a value, without that of the interpolation between directions.
+    /// Returns the absolute uncertainty of τ, without that of the interpolation between directions of BSDF data.
     pub const fn error(&self) -> f64 {
         self.error
     }
 
-    /// Returns τ of a direction of incidence, 0 … 1 for data that transmit no more than they receive.
+    /// Returns τ for light from the incident direction `d` (towards the source, in the aperture's frame), 0 … 1 for
+    /// data that transmit no more than they receive.
     pub fn at(&self, d: Dir<Facade>, between: Between) -> f64 {
         let theta = d.theta().min(FRAC_PI_2);
         let scattered = match (&self.scattered, between) {
@@ -157,7 +161,8 @@ impl DirectionalTransmittance {
         scattered + self.regular.as_ref().map_or(0.0, |tau| tau.at(theta))
     }
 
-    /// Returns the division of the hemisphere by which light is summed up: the data's own, else Klems'.
+    /// Returns the cells of the incident hemisphere over which transmitted light is summed up: those of the data, else
+    /// the full Klems basis.
     pub fn cells(&self) -> RingBasis {
         match &self.scattered {
             Rest::Cells(grid, _) if self.knows_cells() => grid.basis().clone(),
@@ -165,12 +170,12 @@ impl DirectionalTransmittance {
         }
     }
 
-    /// Whether the data have a value for each of [`Self::cells`].
+    /// Whether the data have one value of τ for each of the cells that [`Self::cells`] returns.
     pub fn knows_cells(&self) -> bool {
         matches!(&self.scattered, Rest::Cells(grid, _) if grid.basis().len() <= MOST_CELLS)
     }
 
-    /// Returns means over cells, weighted by projected solid angle.
+    /// Returns the mean of τ over each of `cells`, weighted by projected solid angle.
     pub fn on(&self, cells: &RingBasis, between: Between) -> Vec<f64> {
         // What the data say of their own cells are such means already.
         if let (Rest::Cells(grid, tau), Between::Constant) = (&self.scattered, between)

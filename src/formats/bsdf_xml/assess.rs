@@ -1,19 +1,20 @@
-//! Assessment of a file's blocks by its reader: which are left out, derived or refused.
+//! Assessment of a file's data blocks by its reader: implausible ones are dropped or refused, a missing front
+//! transmission is derived.
 
 use crate::compute::btdf::{Band, Btdf, Component, Dataset, Finding, Scattered, TreeNode, reciprocity_error, tau_max};
 use crate::compute::doctor::{by_reciprocity, same_values};
 use crate::formats::location::{FormatError, Location};
 
-/// Sum of a transmission above which it is refused, even if it is in percent.
+/// Direct-hemispherical value of a transmission above which the file is refused, even if it is in percent.
 const IMPOSSIBLE: f64 = 150.0;
-/// Sum of any other function above which it is refused.
+/// Direct-hemispherical value of any other function above which the file is refused.
 const OVERFLOW: f64 = 1e6;
-/// Mean relative difference from reciprocity above which a back of one number is not that of the front's system.
-/// Chosen: where the data check calls the agreement of both sides no longer good.
+/// Mean reciprocity error above which a back transmission with the same number in all cells does not belong to the same
+/// system as the front transmission. Chosen: where the data check calls the agreement of both sides no longer good.
 const MAX_DIFFERENCE: f64 = 0.1;
 
-/// Drops blocks that cannot be meant, refuses sums beyond any unit, derives a missing front transmission. All other
-/// checks of the numbers are the data check's.
+/// Drops data blocks that cannot be meant, refuses values that are too large in any unit, and derives a missing front
+/// transmission. All other checks are those of the data check (`compute::doctor`).
 pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     let mut findings = std::mem::take(&mut dataset.findings);
     mislabelled(&mut dataset.visible, "Visible", &mut findings);
@@ -34,7 +35,7 @@ pub(super) fn assess(dataset: &mut Dataset) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Removes a reflection block that repeats a transmission block number by number: it is that transmission, mislabelled.
+/// Removes a reflection that repeats the values of a transmission: it is that transmission, mislabelled.
 fn mislabelled(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     for (reflection, place) in [
         (Component::ReflectionFront, &mut band.reflection_front),
@@ -81,7 +82,7 @@ fn plausible(band: &Band, name: &str) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Leaves out a back transmission that WINDOW filled with zeros or another number (Radiance,
+/// Removes a back transmission that WINDOW filled with zeros or another constant (Radiance,
 /// doc/notes/BSDFdirections.txt).
 fn placeholder(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     let (Some(front), Some(back)) = (&band.transmission_front, &band.transmission_back) else { return };
@@ -99,7 +100,7 @@ fn placeholder(band: &mut Band, name: &str, findings: &mut Vec<Finding>) {
     }
 }
 
-/// Returns the number that all cells hold, if they hold the same. \[1/sr\]
+/// Returns the value q of all pairs of cells, if they all have the same. \[1/sr\]
 fn one_number(btdf: &Btdf) -> Option<f64> {
     match &btdf.scattered {
         Some(Scattered::Cells(matrix)) => {

@@ -1,4 +1,5 @@
-//! Angle bases as the file lists them: the list of directions counts, not the name.
+//! Angle bases (divisions of the hemisphere) of a BSDF XML file: the directions that the file lists apply, not the name
+//! of the basis.
 
 use super::document::{Source, child, child_text, children, text};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
@@ -7,7 +8,7 @@ use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::Node;
 
-/// Bases that a file defines or names.
+/// Angle bases that a file defines or names.
 pub(super) struct Bases {
     list: Vec<RingBasis>,
 }
@@ -28,7 +29,7 @@ impl Bases {
         Ok(Self { list })
     }
 
-    /// Returns the basis of a name: from the file's own list if it is there, else a standard one.
+    /// Returns the basis with the given name: from the file's definition, or else the standard one of that name.
     pub(super) fn get(&self, name: &str, at: Location) -> Result<RingBasis, FormatError> {
         if let Some(basis) = self.list.iter().find(|basis| basis.name().eq_ignore_ascii_case(name)) {
             return Ok(basis.clone());
@@ -115,8 +116,9 @@ fn read_basis(source: &Source, node: Node<'_, '_>) -> Result<RingBasis, FormatEr
         .map_err(|error| FormatError::new(source.place(node), error.to_string(), "rings that divide 0…90°"))
 }
 
-/// Checks the name of a basis. A standard name on another list is an error (it is not clear which of the two is meant),
-/// except Half, which has meant both 73 and 77 directions; an unknown name on a proper list gives a finding.
+/// Checks the name of a basis. A standard name with other directions is an error (it is not clear which of the two is
+/// meant), except Half, which has meant both 73 and 77 directions; an unknown name with valid directions gives a
+/// finding.
 fn check_name(
     source: &Source,
     node: Node<'_, '_>,

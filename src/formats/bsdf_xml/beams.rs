@@ -1,20 +1,21 @@
-//! Description of the numbers, see [`crate::formats::beams`], as a processing instruction.
+//! System description from which the data of a BSDF XML file were computed (see [`crate::formats::beams`]), as a
+//! processing instruction.
 //!
 //! `<?cfs-system version="1" state="45" fingerprint="…" text="…"?>`, at the beginning of the root element. The standard
-//! knows none, so that readers of the standard pass over it (Radiance's ezxml separates instructions from elements, and
-//! schemas do not mention them). A comment would be possible too, but comments of this format are texts for people, and
-//! are read as such. In the values everything that could end them or look like markup is written as `%` and two
-//! hexadecimal digits per byte of UTF-8.
+//! has no processing instructions, so that its readers ignore them (Radiance's ezxml separates instructions from
+//! elements, and schemas do not mention them). A comment would be possible too, but comments of this format are texts
+//! for people, and are read as such. In the values everything that could end them or look like markup is written as `%`
+//! and two hexadecimal digits per byte of UTF-8.
 
 use super::document::children;
 use crate::compute::btdf::{Dataset, DescribedState, Finding};
 use crate::formats::beams::{Fingerprint, StoredDescription, VERSION, not_restored};
 use roxmltree::{Document, Node};
 
-/// Target of the instruction.
+/// Target of the processing instruction.
 const TARGET: &str = "cfs-system";
 
-/// Returns the fingerprint of the description and of all data on light: the bases and every block of numbers, of both
+/// Returns the fingerprint of the description and of all optical data: the bases and the values of every block, of both
 /// bands.
 fn fingerprint(root: Node<'_, '_>, described: &DescribedState) -> String {
     let mut print = Fingerprint::new(described);
@@ -28,7 +29,8 @@ fn fingerprint(root: Node<'_, '_>, described: &DescribedState) -> String {
     print.finish()
 }
 
-/// Returns the description of the file's numbers, or a finding if it does not belong to them. `None` for files without.
+/// Returns the description in a file from which its data were computed, or a finding if it does not belong to them.
+/// `None` if the file has no description.
 pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Finding>> {
     let instruction = root.children().filter_map(|node| node.pi()).find(|pi| pi.target == TARGET)?;
     let value = |key: &str| value(instruction.value.unwrap_or_default(), key);
@@ -49,7 +51,7 @@ pub(super) fn described(root: Node<'_, '_>) -> Option<Result<DescribedState, Fin
     Some(stored.restored(&now))
 }
 
-/// Returns the file with the description of its dataset in it.
+/// Returns the file with the system description of its dataset inserted.
 pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
     let Some(described) = &dataset.described else { return xml };
     // Read as any reader will, so that both count the same numbers.
@@ -66,7 +68,7 @@ pub(super) fn added(mut xml: String, dataset: &Dataset) -> String {
     xml
 }
 
-/// Whether the state key is that of the description. The format itself has no place for it.
+/// Whether the dataset's state is that of its system description; BSDF XML itself cannot store the key of a state.
 pub(super) fn describes_state(dataset: &Dataset) -> bool {
     dataset.described.as_ref().is_some_and(|described| described.state == dataset.state)
 }
@@ -85,7 +87,7 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// Returns a value of the instruction as it was before it was escaped.
+/// Returns the value of a key in the processing instruction, unescaped; `None` if it is missing or malformed.
 fn value(instruction: &str, key: &str) -> Option<String> {
     let quoted = instruction.split_once(&format!("{key}=\""))?.1;
     let (text, _) = quoted.split_once('"')?;

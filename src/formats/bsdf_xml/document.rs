@@ -1,20 +1,21 @@
-//! XML trees from bytes that are safe to walk: encodings, junk before the declaration, depth, places of errors.
+//! Parsing of XML files into trees of limited size and depth: encodings, junk before the declaration, positions of
+//! errors.
 
 use crate::compute::btdf::Finding;
 use crate::formats::encoding::{self, Encoding, NotText};
 use crate::formats::location::{FormatError, Location, excerpt};
 use roxmltree::{Document, Node, ParsingOptions};
 
-/// Maximum nesting; makers' files have 7 levels.
+/// Maximum nesting of elements; makers' files have 7 levels.
 const MAX_DEPTH: usize = 64;
-/// Maximum number of nodes, more than any dataset needs, few enough to stay small in memory.
+/// Maximum number of XML nodes, more than any dataset needs, few enough to stay small in memory.
 const MAX_NODES: u32 = 200_000;
 /// Maximum number of attributes on one element, more than any file has; their names are compared pair by pair.
 const MAX_ATTRIBUTES: usize = 64;
-/// Number of bytes that are searched for an XML declaration.
+/// Number of bytes at the beginning of a file that are searched for an XML declaration.
 const MAX_JUNK: usize = 65_536;
 
-/// Text of a file, cut to where the XML begins.
+/// Text of an XML file, from the beginning of the XML on.
 pub(super) struct Source {
     text: String,
     /// Number of line breaks in the junk that was cut off.
@@ -22,7 +23,8 @@ pub(super) struct Source {
 }
 
 impl Source {
-    /// Decodes a file and cuts off junk; refuses a web page and anything that is not XML or nested too deeply.
+    /// Decodes a file and removes junk before the XML; refuses a web page and anything that is not XML or is nested too
+    /// deeply.
     pub(super) fn new(bytes: &[u8], findings: &mut Vec<Finding>) -> Result<Self, FormatError> {
         if bytes.is_empty() {
             return Err(FormatError::new(Location::file(), "an empty file", "a BSDF XML file"));
@@ -49,7 +51,7 @@ impl Source {
         Ok(source)
     }
 
-    /// Parses the text.
+    /// Parses the text into an XML tree.
     pub(super) fn parse(&self) -> Result<Document<'_>, FormatError> {
         let options = ParsingOptions { allow_dtd: false, nodes_limit: MAX_NODES, ..ParsingOptions::default() };
         Document::parse_with_options(&self.text, options).map_err(|error| {
@@ -76,7 +78,7 @@ impl Source {
         })
     }
 
-    /// Returns line and column of a node, with its name.
+    /// Returns the position of a node in the file: line, column and name.
     pub(super) fn place(&self, node: Node<'_, '_>) -> Location {
         self.line_of(node.range().start).in_element(format!("<{}>", node.tag_name().name()))
     }
@@ -87,7 +89,7 @@ impl Source {
         Location::line(1 + before.iter().filter(|b| **b == b'\n').count() + self.lines_before)
     }
 
-    /// Counts open tags before anything recursive sees them.
+    /// Checks the depth of nesting before the text is given to a recursive parser.
     fn check_depth(&self) -> Result<(), FormatError> {
         let bytes = self.text.as_bytes();
         let (mut depth, mut at) = (0_usize, 0);
@@ -190,29 +192,29 @@ fn start_of_xml(text: &str) -> Option<usize> {
     tag.starts_with(|c: char| c.is_alphabetic() || c == '!' || c == '_').then(|| text.len() - trimmed.len())
 }
 
-/// Returns the first child element of that name, whatever its namespace and capitals.
+/// Returns the first child element with the given name, in any namespace and any case.
 pub(super) fn child<'a, 'd>(node: Node<'a, 'd>, name: &str) -> Option<Node<'a, 'd>> {
     children(node, name).next()
 }
 
-/// Returns the child elements of that name.
+/// Returns the child elements with the given name, in any namespace and any case.
 pub(super) fn children<'a, 'd>(node: Node<'a, 'd>, name: &str) -> impl Iterator<Item = Node<'a, 'd>> {
     let name = name.to_owned();
     node.children().filter(move |n| n.is_element() && n.tag_name().name().eq_ignore_ascii_case(&name))
 }
 
-/// Returns all text directly inside an element (CDATA too, comments left out), trimmed.
+/// Returns all text directly inside an element (with CDATA, without comments), trimmed.
 pub(super) fn text(node: Node<'_, '_>) -> String {
     let parts: Vec<&str> = node.children().filter(|n| n.is_text()).filter_map(|n| n.text()).collect();
     parts.concat().trim().to_owned()
 }
 
-/// Returns the trimmed text of a child; empty when there is none.
+/// Returns the trimmed text of the first child element with the given name; empty when there is none.
 pub(super) fn child_text(node: Node<'_, '_>, name: &str) -> String {
     child(node, name).map(text).unwrap_or_default()
 }
 
-/// Returns text as the content of an element: control characters dropped, markup escaped.
+/// Returns a text for use as the content of an XML element: without control characters, with markup escaped.
 pub(super) fn escaped(text: &str) -> String {
     let clean: String = text.chars().filter(|c| !c.is_control()).collect();
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")

@@ -1,4 +1,4 @@
-//! Selection of a file's data that belong to the system: not those of its layers, nor what the layers absorb.
+//! Selection of the data of a BSDF XML file that describe the whole system, not single layers or their absorption.
 
 use super::document::{Source, child, child_text, children};
 use crate::compute::btdf::{Component, Finding};
@@ -81,20 +81,19 @@ fn number(data: Node<'_, '_>) -> String {
     if number.is_empty() { SYSTEM.to_owned() } else { number }
 }
 
-/// Returns the words of a block's direction, in lower case.
+/// Returns the words of a block's `WavelengthDataDirection`, in lower case.
 pub(super) fn direction(block: Node<'_, '_>) -> Vec<String> {
     child_text(block, "WavelengthDataDirection").to_lowercase().split_whitespace().map(str::to_owned).collect()
 }
 
-/// Whether a block holds the share of light that a layer absorbs: `Absorbed` in the schema, `Absorption` in other
-/// files.
+/// Whether a data block states the absorptance of a layer: `Absorbed` in the schema, `Absorption` in other files.
 pub(super) fn is_absorbed(block: Node<'_, '_>) -> bool {
     direction(block).first().is_some_and(|word| word.starts_with("absor"))
 }
 
-/// Returns the function that a transmission without a side is. genBSDF wrote it so until 2012, traced from the room
-/// unless it traced from outside alone, and then only the reflection of the outside is there (Radiance,
-/// src/util/genBSDF.pl 2.37).
+/// Returns which transmission a block without a side contains. genBSDF wrote such blocks until 2012: transmission from
+/// the room side, unless it had traced from outside alone, when the file contains only the reflection of the outside
+/// (Radiance, src/util/genBSDF.pl 2.37).
 pub(super) fn without_side(layer: Node<'_, '_>) -> Component {
     let blocks = || layer.descendants().filter(|node| child(*node, "WavelengthDataDirection").is_some());
     let reflects = |side: &str| blocks().any(|block| direction(block) == ["reflection", side]);

@@ -1,7 +1,7 @@
 //! `Material` element: names, extents and thermal data, read and written.
 //!
-//! Thermal data have no effect on the light, and are kept so that a file that is written again still holds what was
-//! measured. WINDOW does not import a matrix file without them: unknown values are written there as the defaults of
+//! Thermal data have no effect on the light, and are stored so that a file that is written again still contains what
+//! was measured. WINDOW does not import a matrix file without them: unknown values are written there as the defaults of
 //! Radiance's template for WINDOW, and the element's own comment names each of them. Values that this comment names and
 //! that equal the default are left out again on reading, so that no default ever becomes a measured value.
 //!
@@ -14,11 +14,11 @@ use crate::formats::location::excerpt;
 use roxmltree::Node;
 use std::fmt::Write as _;
 
-/// Thickness that is written where none is known. \[m\]
+/// Thickness that is written if the dataset has none. \[m\]
 const THICKNESS: f64 = 0.003;
-/// Beginning of the list of defaults.
+/// Beginning of the comment that lists the defaults.
 const INVENTED: &str = "Defaults, not measured: ";
-/// Values of the defaults, in the order of the file.
+/// Default values of thermal data, in the order of the file.
 const DEFAULTS: [(ThermalKey, f64); 5] = [
     (ThermalKey::Conductivity, 1.0),
     (ThermalKey::EmissivityFront, 0.9),
@@ -26,7 +26,7 @@ const DEFAULTS: [(ThermalKey, f64); 5] = [
     (ThermalKey::InfraredTransmittance, 0.1),
     (ThermalKey::EffectiveOpenness, 0.05),
 ];
-/// Kinds of devices in the schema; the last stands for no information.
+/// Device types of the schema; the last means "no information".
 const DEVICES: [&str; 10] = [
     "Venetian blind horizontal",
     "Venetian blind vertical",
@@ -58,7 +58,7 @@ const fn is_length(key: ThermalKey) -> bool {
     matches!(key, ThermalKey::Width | ThermalKey::Height)
 }
 
-/// Reads name, maker, thickness, thermal data and the file's own description.
+/// Reads name, maker, thickness, thermal data and description from the `Material` element into the dataset.
 pub(super) fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_, '_>) {
     let comments = root.document().root().descendants().filter(|node| node.is_comment()).filter_map(|node| node.text());
     dataset.description =
@@ -88,7 +88,7 @@ pub(super) fn describe(dataset: &mut Dataset, root: Node<'_, '_>, layer: Node<'_
     dataset.thermal = thermal(material, invented, &mut dataset.findings);
 }
 
-/// Returns a length in metres; a text that is not understood is reported and left out.
+/// Returns a length stated in the `Material` element \[m\]; a text that is not understood gives a finding and `None`.
 fn length(material: Node<'_, '_>, name: &str, code: &'static str, findings: &mut Vec<Finding>) -> Option<f64> {
     let node = child(material, name)?;
     let value = text(node);
@@ -158,8 +158,8 @@ fn thermal(material: Node<'_, '_>, invented: &str, findings: &mut Vec<Finding>) 
     thermal
 }
 
-/// Writes the element. `defaults`: whether values that WINDOW needs and the dataset lacks are written as defaults,
-/// which are named in the element's comment and in the returned findings.
+/// Writes the `Material` element. `defaults`: whether values that WINDOW needs and the dataset lacks are written as
+/// defaults, which are named in the element's comment and in the returned findings.
 pub(super) fn write(xml: &mut String, dataset: &Dataset, defaults: bool) -> Vec<Finding> {
     let thermal = &dataset.thermal;
     // Some readers do not stand empty elements.

@@ -1,14 +1,14 @@
 //! LBNL BSDF XML (`WindowElement`), as WINDOW, genBSDF, Fener and makers write it.
 //!
-//! Read: matrices on Klems full, half (73 or 77 directions), quarter and any other list of rings; tensor trees of
-//! rank 3 and 4; incident data in columns or rows; the Visible and the Solar band; all four functions.
-//! "Front" is the outside. Azimuths and squares are taken over as [`crate::compute::basis::AzimuthMap::KLEMS_FRONT`]
-//! and `KLEMS_BACK` say, so that nothing is reordered.
+//! Read: matrices on Klems full, half (73 or 77 directions), quarter and any other list of rings; tensor trees of rank
+//! 3 and 4; incident directions in columns or rows; the Visible and the Solar band; all four functions. "Front" is the
+//! outside. Azimuths and squares are interpreted by [`crate::compute::basis::AzimuthMap::KLEMS_FRONT`] and
+//! `KLEMS_BACK`, so that no values are reordered.
 //!
-//! Numbers that were computed from a description (`.system.toml`) are written with it, in a processing instruction that
-//! other readers pass over (`beams`): the file conforms to the standard, with beams in their cells, and this program
-//! recognises what it wrote: the dataset has its [`described`](Dataset::described) and the key of its state. Where
-//! numbers were changed since, or a newer version wrote the instruction, it is left out and the finding
+//! Data that were computed from a description (`.system.toml`) are written with it, in a processing instruction that
+//! other readers ignore (`beams`): the file conforms to the standard, with beams averaged over cells, and when this
+//! program reads it again, the dataset has its [`described`](Dataset::described) and the key of its state. If the data
+//! were changed since, or a newer version wrote the instruction, the description is ignored and the finding
 //! `beams-not-restored` reports it.
 //!
 //! Not read: geometry (MGF), other bands and CIE X/Z or u′/v′ colour data, data of single layers and what they absorb
@@ -39,8 +39,8 @@ use basis::Bases;
 use document::{Source, child, child_text, children, text};
 use roxmltree::Node;
 
-/// Returns one dataset as a file: trees where all its functions are trees of one rank ([`write_tree()`]), matrices
-/// otherwise ([`write_matrices`]).
+/// Returns a BSDF XML file of a dataset: with tensor trees if all its functions are trees of one rank
+/// ([`write_tree()`]), otherwise with matrices ([`write_matrices`]).
 ///
 /// # Errors
 /// Returns an error if the dataset has no visible function.
@@ -51,7 +51,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     }
 }
 
-/// Arrangement of the incident directions in the data.
+/// Arrangement of the values in the data: matrices with incident directions in columns or rows, or tensor trees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Structure {
     Columns,
@@ -59,7 +59,7 @@ enum Structure {
     Tree(TreeRank),
 }
 
-/// Reads one file into one dataset.
+/// Reads a BSDF XML file, which contains one dataset.
 ///
 /// # Errors
 /// Returns an error if the meaning of the numbers is ambiguous: broken or hostile XML, an unknown structure, direction
@@ -291,8 +291,8 @@ impl Reader<'_> {
         Ok(Btdf::from_cells(matrix))
     }
 
-    /// Returns the values of a block whose count is not that of the bases: a small sample of the first directions, or
-    /// an error.
+    /// Returns values for a block whose count differs from that of its bases, if the file is a sample with the first
+    /// directions only; otherwise an error.
     fn fit(
         &mut self,
         values: &[f64],

@@ -5,10 +5,11 @@ use crate::compute::btdf::{TreeNode, TreeRank};
 use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
-/// Maximum number of nodes, more than any measurement or simulation yields; bounds the memory of a tree to 128 MB.
+/// Maximum number of nodes of a tensor tree, more than any measurement or simulation yields; bounds its memory to 128
+/// MB.
 const MAX_TREE_NODES: usize = limits::TREE_NODES;
 
-/// Reads numbers separated by blanks, line breaks and commas. `expected`: count that the bases require.
+/// Reads numbers separated by blanks, line breaks and commas. `expected`: number of values that the bases require.
 pub(super) fn parse_list(text: &str, expected: usize, at: &Location) -> Result<Vec<f64>, FormatError> {
     let mut values = Vec::with_capacity(expected.min(text.len() / 2 + 1));
     for token in tokens(text) {
@@ -42,16 +43,16 @@ fn parse_number(token: &str, index: usize, at: &Location) -> Result<f64, FormatE
     }
 }
 
-/// Content of a tree's text.
+/// Tensor tree that was read from text, and the negative values that were replaced.
 pub(super) struct ParsedTree {
     /// Nodes of the tree, the root at index 0.
     pub nodes: Vec<TreeNode>,
-    /// Negative values that were set to zero: their number and the most negative. \[1/sr\]
+    /// Negative values that were set to zero: their number, and the most negative one. \[1/sr\]
     pub negative: (usize, f64),
 }
 
-/// Reads nested `{ … }`: a branch holds 2^rank braces, a leaf one number or a grid of 2^(rank·k) numbers, its last
-/// coordinate running fastest. No recursion beyond the allowed depth.
+/// Reads a tensor tree from nested `{ … }`: a branch contains 2^rank braces, a leaf one number or a grid of 2^(rank·k)
+/// numbers, of which the last coordinate runs fastest. No recursion beyond the allowed depth.
 pub(super) fn parse_tree(text: &str, rank: TreeRank, at: &Location) -> Result<ParsedTree, FormatError> {
     let mut parser = Parser {
         rest: text.trim_start(),
@@ -150,7 +151,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Turns a grid of leaves into branches of branches.
+    /// Stores a grid of leaf values as nested branches of the tree.
     fn spread(&mut self, place: usize, values: &[f64], depth: u32, left: u32, corner: [usize; 4]) {
         let dimensions = self.rank.dimensions();
         if left == 0 {

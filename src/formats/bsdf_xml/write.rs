@@ -1,9 +1,10 @@
-//! Writing of BSDF XML as matrices: on the dataset's own rings where the format allows, otherwise on Klems' full basis.
+//! Writing of BSDF XML as matrices: on the rings of the dataset where the format allows, otherwise on the Klems full
+//! basis.
 //!
 //! A file has one angle basis for all its blocks, azimuths counted as in Klems files on the block's side, the first
-//! sector of every ring centred on 0. Functions on other cells are averaged over those cells (flux kept); tensor trees
-//! are sampled cell by cell from their finest grid; regular transmission becomes the diagonal of its matrix, τ/PΩ in
-//! every cell. The Geometry element is empty.
+//! sector of every ring centred on 0. Functions on other cells are averaged over those cells (flux is conserved);
+//! tensor trees are sampled cell by cell from their finest grid; regular transmission becomes the diagonal of its
+//! matrix, τ/PΩ in every cell. The Geometry element is empty.
 //!
 //! Elements, their order and their words are those of LBNL's schema (BSDF-v1.7.5.xsd), so that WINDOW imports the file:
 //! both bands where there are two, each with its spectra; reflection under the data type "BTDF", the only one that the
@@ -18,7 +19,8 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// Returns one dataset as a file. Blocks that were derived when it was read are written like the others.
+/// Returns a BSDF XML file of a dataset, with matrices. Functions that were derived by reciprocity when the dataset was
+/// read are written like the others.
 ///
 /// # Errors
 /// Returns an error if the dataset has no visible function.
@@ -37,7 +39,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     Ok(Written { bytes: beams::added(xml, dataset).into_bytes(), findings: changes(dataset, &basis, defaults) })
 }
 
-/// Returns findings on differences between the file and the dataset, after those of the file's head.
+/// Returns findings on differences between the written file and the dataset, after the `findings` of the file's head.
 fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> Vec<Finding> {
     let mut report = |code, text: String| findings.push(Finding::info(code, text));
     for component in dataset.visible.components() {
@@ -77,7 +79,7 @@ fn changes(dataset: &Dataset, basis: &RingBasis, mut findings: Vec<Finding>) -> 
     findings
 }
 
-/// Returns the dataset's own rings where the format can express them, else Klems full.
+/// Returns the basis for all blocks: the rings of the dataset where the format can express them, else Klems full.
 fn common_basis(dataset: &Dataset) -> RingBasis {
     let own = dataset.visible.components().into_iter().find_map(|component| {
         let Some(Scattered::Cells(matrix)) = &dataset.visible.get(component)?.scattered else { return None };
@@ -94,7 +96,7 @@ fn common_basis(dataset: &Dataset) -> RingBasis {
     own.unwrap_or_else(|| RingBasis::klems_full(AzimuthMap::KLEMS_FRONT))
 }
 
-/// Writes the first lines of all files.
+/// Writes the first lines, which all files have in common.
 pub(super) fn opening(xml: &mut String, dataset: &Dataset) {
     xml.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     xml.push_str(
@@ -109,7 +111,7 @@ pub(super) fn opening(xml: &mut String, dataset: &Dataset) {
     );
 }
 
-/// Writes everything before the bands. Returns findings on the defaults used.
+/// Writes everything before the data of the bands. Returns findings on the defaults used.
 fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> {
     opening(xml, dataset);
     let findings = material::write(xml, dataset, true);
@@ -131,7 +133,7 @@ fn head(xml: &mut String, dataset: &Dataset, basis: &RingBasis) -> Vec<Finding> 
     findings
 }
 
-/// Returns an angle in degrees without rounding noise of radians.
+/// Returns an angle given in radians in degrees, rounded so that no conversion error shows.
 fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e9).round() / 1e9
 }

@@ -1,10 +1,10 @@
 //! Writing of BSDF XML as tensor trees (`TensorTree3`, `TensorTree4`), for Radiance and other readers of such trees.
 //!
-//! Trees of the requested rank are written leaf by leaf unchanged: numbers of at most ten digits, in the shortest form
-//! that reads back the same. Every other function is averaged over a grid and pruned by [`tree_on`]; a finding reports
-//! the loss. Functions that were derived when the dataset was read are left out unless they are requested, since our
-//! reader derives them the same way: a file that is read and written again holds the blocks that it had. Radiance does
-//! not derive them for rank 3. The Geometry element is empty.
+//! Tensor trees of the requested rank are written unchanged, leaf by leaf: numbers of at most ten digits, in the
+//! shortest form that reads back the same. Every other function is averaged over a grid and pruned by [`tree_on`]; a
+//! finding reports the loss. Functions that were derived when the dataset was read are left out unless they are
+//! requested, since this program's reader derives them again: a file that is read and written again contains the same
+//! blocks. Radiance does not derive them for rank 3. The Geometry element is empty.
 
 use super::beams;
 use super::material;
@@ -16,32 +16,33 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// Form in which trees are written.
+/// Options for writing tensor trees: rank, resolution, pruning and derived functions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreeForm {
-    /// Rank of the trees.
+    /// Rank of the trees, 3 or 4.
     pub rank: TreeRank,
-    /// Logarithm to base 2 of the steps of a coordinate; `None`: resolution of the source, at most 6.
+    /// Resolution: base-2 logarithm of the number of steps along each coordinate; `None`: that of the source, at most 6
+    /// (64 steps).
     pub level: Option<u32>,
-    /// Maximum share of the light that pruning may misplace; `None`: trees of the rank stay unchanged, all else is
-    /// pruned by [`TreeForm::TOLERANCE`].
+    /// Maximum share of the flux that pruning may misplace, 0 … 1; `None`: trees of the rank are written unchanged,
+    /// other functions are pruned with [`TreeForm::TOLERANCE`].
     pub tolerance: Option<f64>,
-    /// Whether functions are written that were derived when the dataset was read.
+    /// Whether functions that were derived by reciprocity when the dataset was read are written too.
     pub derived: bool,
 }
 
 impl TreeForm {
-    /// Default share of the light that pruning may misplace.
+    /// Default maximum share of the flux that pruning may misplace.
     pub const TOLERANCE: f64 = 0.01;
 
-    /// Creates the default form for a rank.
+    /// Creates the default options for trees of the given rank.
     pub const fn of_rank(rank: TreeRank) -> Self {
         Self { rank, level: None, tolerance: None, derived: false }
     }
 }
 
-/// Returns the rank of a dataset whose functions are all trees of one rank and nothing else; these are written
-/// unchanged.
+/// Returns the rank of a dataset whose functions are all pure tensor trees of that rank, which can be written
+/// unchanged; `None` for other datasets.
 pub fn rank_of(dataset: &Dataset) -> Option<TreeRank> {
     let mut ranks = bands(dataset).flat_map(|(_, band)| {
         band.components().into_iter().filter_map(|component| band.get(component)).map(|btdf| {
@@ -59,10 +60,10 @@ fn bands(dataset: &Dataset) -> impl Iterator<Item = (&'static str, &Band)> {
     std::iter::once(("Visible", &dataset.visible)).chain(dataset.solar.iter().map(|band| ("Solar", band)))
 }
 
-/// Returns one dataset as a file of tensor trees.
+/// Returns a BSDF XML file of a dataset, with tensor trees.
 ///
 /// # Errors
-/// Returns an error if the dataset has no visible function, or [`tree_on`] refuses the form.
+/// Returns an error if the dataset has no visible function, or if [`tree_on`] refuses the options.
 pub fn write_tree(dataset: &Dataset, form: TreeForm) -> Result<Written, FormatError> {
     if dataset.visible.components().is_empty() {
         return Err(FormatError::new(Location::file(), "a dataset without visible functions", "at least one to write"));
@@ -106,7 +107,7 @@ const fn axes_of(component: Component) -> TreeAxes {
     }
 }
 
-/// Returns the function as a tree of the form, and the change that this caused.
+/// Returns a function as a tensor tree by the options `form`; a finding reports the loss that this causes.
 fn tree_of(
     btdf: &Btdf,
     component: Component,
@@ -184,7 +185,7 @@ fn block(xml: &mut String, tree: &TensorTree, component: Component, band: &str) 
     xml.push_str("\t\t\t\t\t</ScatteringData>\n\t\t\t\t</WavelengthDataBlock>\n\t\t\t</WavelengthData>\n");
 }
 
-/// Writes a node and all below it; no deeper than [`crate::compute::basis::MAX_LEVEL`].
+/// Writes a node of a tensor tree and all nodes below it; no deeper than [`crate::compute::basis::MAX_LEVEL`].
 fn node(xml: &mut String, tree: &TensorTree, index: usize) {
     let nodes = tree.nodes();
     let TreeNode::Branch(first) = nodes[index] else {
@@ -212,7 +213,7 @@ fn node(xml: &mut String, tree: &TensorTree, index: usize) {
     xml.push_str("}\n");
 }
 
-/// Writes the number rounded to ten digits, in the shortest form that reads back the same.
+/// Writes the value of a leaf, rounded to ten digits, in the shortest notation that reads back the same.
 fn leaf(xml: &mut String, node: TreeNode) {
     let TreeNode::Leaf(q) = node else { return };
     let rounded = format!("{q:.9e}").parse::<f64>().unwrap_or(q);

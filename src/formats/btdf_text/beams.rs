@@ -1,4 +1,4 @@
-//! Addition to a header with the description of the numbers, see [`crate::formats::beams`].
+//! Extension of the header with the system description that the data were computed from, see [`crate::formats::beams`].
 //!
 //! ```toml
 //! beams = "cfs-beams 1"        # version of the addition
@@ -13,7 +13,8 @@ use crate::compute::btdf::{Dataset, DescribedState};
 use crate::formats::beams::{Fingerprint, NAME, VERSION};
 use crate::formats::location::FormatError;
 
-/// Returns the fingerprint of the records, of the keys that define their meaning, and of the description.
+/// Returns the fingerprint of a file's records, of the header keys that define their meaning, and of the system
+/// description.
 pub(super) fn fingerprint(header: &Header, body: &str, described: &DescribedState) -> String {
     let mut print = Fingerprint::new(described);
     print.word(header.component.key());
@@ -33,7 +34,7 @@ pub(super) fn fingerprint(header: &Header, body: &str, described: &DescribedStat
     print.finish()
 }
 
-/// Returns the file with the description of its dataset in its header.
+/// Returns the file with the system description of its dataset added to its header.
 pub(super) fn added(mut text: String, dataset: &Dataset) -> Result<String, FormatError> {
     let Some(described) = &dataset.described else { return Ok(text) };
     let Split { header, body, .. } = split(&text)?;

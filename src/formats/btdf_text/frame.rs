@@ -1,6 +1,6 @@
-//! Conversion between directions of the file and stored directions: the one place of this format's angle conventions. A
-//! stored direction (θ′, φ′), `name` in the code, is an incident direction, or of emergent light the through direction
-//! or the mirrored one, as [`crate::compute::direction`] defines.
+//! Conversion between the directions of a file and stored directions: the only module with the angle conventions of
+//! this format. A stored direction (θ′, φ′), `name` in the code, is a direction of undeviated light (for reflected
+//! light: of its mirror image) as [`crate::compute::direction`] defines it.
 //!
 //! | light from | direction | θ in the file | stored θ′ | stored φ′ |
 //! | --- | --- | --- | --- | --- |
@@ -16,7 +16,8 @@ use crate::compute::btdf::Component;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// Conversion of the angles of one kind of direction: a mirroring of θ, a half turn of φ.
+/// Conversion of angles of a file to stored directions, for incident or emergent directions of one function: θ may be
+/// mirrored, φ rotated by 180°.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Naming {
     /// Whether θ in the file runs from 90° to 180°, with θ′ = 180° − θ.
@@ -26,13 +27,13 @@ pub(super) struct Naming {
 }
 
 impl Naming {
-    /// Creates the conversion for incident directions, towards the source.
+    /// Creates the conversion for the incident directions (towards the source) of a function.
     pub fn incident(component: Component) -> Self {
         let inside = !component.is_front();
         Self { inward: inside, turned: inside }
     }
 
-    /// Creates the conversion for emergent directions, in which light leaves.
+    /// Creates the conversion for the emergent directions (in which light leaves) of a function.
     pub fn emergent(component: Component) -> Self {
         // Light travels inwards if it is transmitted from outside, or reflected back inside.
         Self { inward: component.is_transmission() == component.is_front(), turned: component.is_front() }
@@ -43,17 +44,18 @@ impl Naming {
         if self.inward { [90.0, 180.0] } else { [0.0, 90.0] }
     }
 
-    /// Converts θ of the file into θ′, and back. \[°\]
+    /// Converts θ of the file to θ′ of stored directions, or back. \[°\]
     pub fn theta(self, theta_deg: f64) -> f64 {
         if self.inward { 180.0 - theta_deg } else { theta_deg }
     }
 
-    /// Returns φ′ − φ. \[rad\]
+    /// Returns the difference φ′ − φ between the azimuths of stored directions and of the file. \[rad\]
     pub fn turn(self) -> f64 {
         if self.turned { PI } else { 0.0 }
     }
 
-    /// Returns the stored direction for angles of the file; `None` when θ is out of range (by more than rounding).
+    /// Returns the stored direction for angles θ and φ of the file \[°\]; `None` when θ is out of range (by more than
+    /// rounding).
     pub fn name(self, theta_deg: f64, phi_deg: f64) -> Option<Dir<Facade>> {
         const SLACK: f64 = 1e-6;
         let [low, high] = self.range();
@@ -73,7 +75,7 @@ impl Naming {
     }
 }
 
-/// Returns an angle rounded to 1e-9, without negative zero.
+/// Returns an angle in degrees rounded to 1e-9°, without negative zero.
 pub(super) fn tidy(degrees: f64) -> f64 {
     (degrees * 1e9).round() / 1e9 + 0.0
 }

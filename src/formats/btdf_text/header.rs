@@ -1,4 +1,4 @@
-//! TOML header of a file: found between its two lines, checked key by key.
+//! TOML header of a `.btdf.txt` file: it is found between two lines `---` and checked key by key.
 
 use super::{FAMILY, FORMAT};
 use crate::compute::btdf::{Component, DescribedState};
@@ -7,7 +7,7 @@ use crate::formats::location::{FormatError, Location, excerpt};
 use serde::Deserialize;
 use toml::Spanned;
 
-/// Maximum size of a header, more than any needs; bounds the work of the TOML parser. \[bytes\]
+/// Maximum size of a header, more than any needs, which bounds the work of the TOML parser. \[bytes\]
 const MOST_HEADER: usize = 4 << 20;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -42,7 +42,7 @@ pub(super) enum IncidenceChoice {
 }
 
 impl IncidenceChoice {
-    /// Returns the key as written in the header.
+    /// Returns the value of the key `incidence` as written in the header.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Tregenza => "tregenza-145",
@@ -62,7 +62,7 @@ pub(super) enum Symmetry {
 }
 
 impl Symmetry {
-    /// Returns the key as written in the header.
+    /// Returns the value of the key `symmetry` as written in the header.
     pub const fn word(self) -> &'static str {
         match self {
             Self::LeftRight => "left-right",
@@ -92,23 +92,23 @@ impl Key {
     }
 }
 
-/// Catalogue data of a header, beside the content of a [`Dataset`](crate::compute::btdf::Dataset). Empty: not
-/// specified.
+/// Product data for the catalogue that a dataset file's header states beyond the content of a
+/// [`Dataset`](crate::compute::btdf::Dataset). Empty fields: not specified.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct CatalogueFields {
     /// Kind of system, e.g. `venetian`.
     pub kind: String,
-    /// Tags to find the product by.
+    /// Tags by which the product is found in the catalogue.
     pub tags: Vec<String>,
-    /// `measured` or `computed`.
+    /// Origin of the data: `measured` or `computed`.
     pub origin: String,
     /// Author of the measurement or computation.
     pub author: String,
-    /// Instrument or formula.
+    /// Method of the measurement or computation: instrument or formula.
     pub method: String,
-    /// Date as the file gives it.
+    /// Date of the measurement or computation, as the file states it.
     pub date: String,
-    /// Face of the system that looks into the room.
+    /// Name of the face of the system that looks into the room.
     pub inside_face: String,
 }
 
@@ -145,7 +145,7 @@ struct Keys {
     date: Option<Date>,
     #[serde(default)]
     inside_face: String,
-    /// Version of the addition with a description, checked before all other keys.
+    /// Version of the extension with a system description, checked before all other keys.
     #[serde(rename = "beams")]
     _beams: Option<String>,
     system: Option<String>,
@@ -169,38 +169,50 @@ enum Date {
     Toml(toml::value::Datetime),
 }
 
-/// Header in the form in which the program uses it.
+/// Checked content of a header.
 #[derive(Debug)]
 pub(super) struct Header {
+    /// Component of the values: transmission or reflection, with the side of the incident light.
     pub component: Component,
+    /// Layout of the records: values for cells, or for measured points.
     pub layout: Layout,
-    /// Rings as θ from, θ to and number of sectors \[°, °, –\]; with the line of the key.
+    /// Rings of emergent cells, each as θ from, θ to \[°\] and number of sectors, and the line of the key `rings`.
     pub rings: Option<(Vec<[f64; 3]>, usize)>,
+    /// Incident directions: cells of a standard basis, or a list in the records.
     pub incidence: IncidenceChoice,
+    /// Whether values are means over incident cells instead of values at their centres.
     pub incident_mean: bool,
-    /// Whether the header omits the key that says if values are means.
+    /// Whether the header omits the key that states whether values are means over incident cells.
     pub is_mean_unspecified: bool,
+    /// Symmetry of the system, by which missing incident directions are added.
     pub symmetry: Option<Symmetry>,
+    /// Key of the state; may be empty.
     pub state: String,
+    /// Name of the product.
     pub name: String,
+    /// Manufacturer of the product.
     pub manufacturer: String,
+    /// Description of the product in free text.
     pub description: String,
+    /// Thickness of the sample. \[m\]
     pub thickness: Option<f64>,
+    /// Fields about the product for the catalogue.
     pub fields: CatalogueFields,
-    /// Description in the header.
+    /// System description in the header, with its fingerprint.
     pub stored_description: Option<StoredDescription>,
 }
 
-/// Header and the text after it.
+/// Header of a file, and the records after it.
 pub(super) struct Split<'a> {
+    /// Checked content of the header.
     pub header: Header,
-    /// Text of the records.
+    /// Text of the records, the lines after the header.
     pub body: &'a str,
-    /// Number of the body's first line, from 1.
+    /// Line number in the file of the first line of `body`, from 1.
     pub body_line: usize,
 }
 
-/// Finds and reads the header.
+/// Finds and reads the header of a file.
 pub(super) fn split(text: &str) -> Result<Split<'_>, FormatError> {
     let fence = "a TOML header between two lines '---', then the records";
     let mut lines = Lines { text, at: 0, line: 0 };
@@ -241,7 +253,7 @@ pub(super) fn split(text: &str) -> Result<Split<'_>, FormatError> {
     Ok(Split { header, body: &text[lines.at..], body_line: lines.line + 1 })
 }
 
-/// Lines with their numbers and the offset behind them.
+/// Iterator over the lines of a text with their numbers and the offset of the next line.
 struct Lines<'a> {
     text: &'a str,
     at: usize,
@@ -377,7 +389,8 @@ fn parse(text: &str, first_line: usize) -> Result<Header, FormatError> {
     })
 }
 
-/// Whether the header holds a description, of a version that this program knows; other versions may have any keys.
+/// Whether the header contains a system description of a version that this program knows. Returns an error for other
+/// versions, which may have any keys.
 fn beams(table: &toml::Table, first_line: usize) -> Result<bool, FormatError> {
     let Some(value) = table.get("beams") else { return Ok(false) };
     let word = value.as_str().unwrap_or_default();

@@ -9,7 +9,8 @@ use crate::compute::btdf::{Component, Finding};
 use crate::compute::direction::{Dir, Facade};
 use crate::formats::location::{FormatError, Location};
 
-/// Returns the cells whose centres the incidences should be; `None` for listed ones.
+/// Returns the cells at whose centres the incident directions should lie; `None` if the file lists its directions
+/// freely.
 pub(super) fn lattice(choice: IncidenceChoice, component: Component, mean: bool) -> Option<RingBasis> {
     let inside = !component.is_front();
     match choice {
@@ -34,7 +35,8 @@ fn repeated(again: &Incidence, before: &Incidence) -> FormatError {
     )
 }
 
-/// Returns for every cell of a lattice the index of the record at its centre.
+/// Returns for every cell of a lattice the index in `list` of the incident direction at its centre; `None` where it is
+/// missing.
 pub(super) fn place_on(
     list: &[Incidence],
     basis: &RingBasis,
@@ -61,7 +63,7 @@ pub(super) fn place_on(
     Ok(places)
 }
 
-/// Returns an error if a direction is listed twice.
+/// Checks that no incident direction is listed twice; returns an error otherwise.
 pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
     for (k, incidence) in list.iter().enumerate() {
         if let Some(before) = list[..k].iter().find(|other| chord(other.name, incidence.name) < SAME_DIRECTION) {
@@ -71,7 +73,7 @@ pub(super) fn distinct(list: &[Incidence]) -> Result<(), FormatError> {
     Ok(())
 }
 
-/// Returns the finding that names the missing directions of a lattice.
+/// Returns the finding that lists the incident directions of a lattice that a file lacks.
 pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: IncidenceChoice, naming: Naming) -> Finding {
     const NAMED: usize = 6;
     let mut names: Vec<String> = missing
@@ -97,7 +99,7 @@ pub(super) fn incomplete(missing: &[Dir<Facade>], total: usize, choice: Incidenc
     )
 }
 
-/// Returns a finding if parts of the hemisphere are far from any incidence of a list.
+/// Returns a finding if parts of the hemisphere are far from any incident direction of a list.
 pub(super) fn sparse(list: &[Dir<Facade>], naming: Naming) -> Option<Finding> {
     const FAR: f64 = 20.0;
     let nearest = |d: Dir<Facade>| list.iter().map(|other| chord(*other, d)).fold(f64::INFINITY, f64::min);

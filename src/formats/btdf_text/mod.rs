@@ -2,8 +2,8 @@
 //!
 //! Angles of the file are degrees in the façade frame on both sides (φ counter-clockwise seen from outside, 0 = right,
 //! 90 = up; θ from the outward normal). The incident direction points towards the source, transmitted and reflected
-//! ones point where the light goes; `frame` converts them into the directions by which [`crate::compute::direction`]
-//! stores data.
+//! ones point in the direction in which light leaves; `frame` converts them into the stored directions of
+//! [`crate::compute::direction`].
 //!
 //! Read: both layouts (`rings`: means over cells; `points`: values at directions, resampled onto cells with a stated
 //! error); incidences on Tregenza's or Klems' 145 directions or any list; means over incident cells
@@ -12,13 +12,13 @@
 //! side. Missing incidences stay missing unless the header declares a symmetry. A file holds one function of one
 //! state; [`crate::formats::merge_sides`] joins the files of one state.
 //!
-//! An addition to the header, for numbers that were computed from a description (`.system.toml`): `beams = "cfs-beams
-//! 1"` with `system` (its text, in which stacks hold their layers themselves), `system_state` where the key of its
-//! state is not the file's own `state`, and `fingerprint`. Where the fingerprint is that of the file, the description
-//! becomes the dataset's [`described`](crate::compute::btdf::Dataset::described), so that beams are computed and not
-//! guessed from cells. Where it is not, somebody changed the numbers: they are read, the description is left out, and
-//! the finding `beams-not-restored` reports it. A newer version of the addition is refused by its name. Files written
-//! by hand omit all four keys.
+//! An extension of the header, for data that were computed from a description (`.system.toml`): `beams = "cfs-beams 1"`
+//! with `system` (its text, in which stacks hold their layers themselves), `system_state` where the key of its state
+//! differs from the file's `state`, and `fingerprint`. If the fingerprint fits the file, the description becomes the
+//! dataset's [`described`](crate::compute::btdf::Dataset::described), so that beams are computed and not extracted from
+//! cells. If not, the data were changed since: they are read, the description is ignored, and the finding
+//! `beams-not-restored` reports it. A newer version of the extension is refused. Files written by hand omit all four
+//! keys.
 //!
 //! Not read: other bands than the visible one, several headers in a file, records broken over lines.
 
@@ -44,11 +44,11 @@ pub const FORMAT: &str = "cfs-btdf 1";
 /// Beginning of [`Dataset::format`](crate::compute::btdf::Dataset::format) of datasets read from this format.
 pub const FAMILY: &str = "cfs-btdf";
 
-/// Maximum number of values of a file, as in the binary form.
+/// Maximum number of values of a file, the same as in the compact binary format.
 const MOST_VALUES: usize = limits::VALUES;
-/// Maximum number of incident directions.
+/// Maximum number of incident directions of a file.
 const MOST_INCIDENCES: usize = limits::INCIDENCES;
-/// Maximum number of emergent cells.
+/// Maximum number of emergent cells of a file.
 const MOST_CELLS: usize = limits::CELLS;
 /// Angle below which directions count as equal (as in [`Indicatrices`](crate::compute::btdf::Indicatrices)). \[rad\]
 const SAME_DIRECTION: f64 = 2e-3;

@@ -1,11 +1,11 @@
-//! Conversion of values at emergent directions into means over cells.
+//! Conversion of values of q at emergent directions (points) into means over emergent cells.
 //!
-//! Where all incidences have their points on the same rings of equal azimuth steps, every point becomes the cell around
-//! it. Elsewhere a cell's mean is that of the points in it, where there are many; else it is taken over 2 × 2
-//! directions of equal projected weight, each interpolated from its four nearest points with weights 1/d² (Shepard).
-//! The error is estimated by leaving points out one after the other and predicting them from their neighbours, weighted
-//! by flux: it is the share of the light that the points leave uncertain, and an upper bound for what lies between them
-//! rather than for τ.
+//! Where all incident directions have their points on the same rings with equal azimuth steps, every point becomes the
+//! cell around it. Elsewhere a cell's mean is that of the points in it, if there are many; otherwise it is taken over 2
+//! × 2 directions of equal projected weight, each interpolated from its four nearest points with weights 1/d²
+//! (Shepard). The error is estimated by leaving points out one after the other and predicting them from their
+//! neighbours, weighted by flux: it is the share of the light that remains uncertain between the points, not the error
+//! of τ.
 
 use super::frame::{Naming, tidy};
 use super::records::{Incidence, Point};
@@ -19,23 +19,27 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Number of neighbours from which a value is interpolated.
+/// Number of neighbouring points from which a value is interpolated.
 const NEIGHBOURS: usize = 4;
-/// Minimum number of points in a cell for which their mean is its value.
+/// Minimum number of points in a cell from which their mean is used as its value.
 const MANY: usize = 6;
-/// Maximum number of resampled values for all incidences together: finer points are averaged.
+/// Maximum number of resampled values for all incident directions together; finer points are averaged.
 const MOST_RESAMPLED: usize = 6_000_000;
-/// Minimum size of a cell, unless the header defines cells. \[rad\]
+/// Minimum width of a cell, unless the header defines cells. \[rad\]
 const FINEST: f64 = PI / 180.0;
 
-/// Result of resampling: cells, one row per incidence, and findings.
+/// Result of resampling: emergent cells, q \[1/sr\] in one row per incident direction, and findings.
 pub(super) struct Resampled {
+    /// Emergent cells.
     pub basis: RingBasis,
+    /// Mean q of each cell, in one row for each incident direction. \[1/sr\]
     pub rows: Vec<f64>,
+    /// Findings about the resampling.
     pub findings: Vec<Finding>,
 }
 
-/// Makes rows of cells from points. `rings`: cells that the header defines, if it does.
+/// Converts points to means over cells for all incident directions of `list`. `rings`: cells that the header defines,
+/// if any.
 pub(super) fn resample(
     list: &[(Incidence, Vec<Point>)],
     rings: Option<FileRings>,
@@ -101,8 +105,8 @@ pub(super) fn resample(
     Ok(Resampled { basis, rows, findings })
 }
 
-/// Returns one incidence's values on the cells, the share of samples far from its points, and the error of predicting
-/// single points.
+/// Returns, for one incident direction, the values of the cells, the share of samples far from all points, and the
+/// error of predicting single points from their neighbours.
 fn row_by(stencils: &Stencils, basis: &RingBasis, points: &[Point]) -> (Vec<f64>, f64, f64) {
     let value = |s: &Stencil| s.iter().map(|&(k, w)| w * points[k as usize].q).sum::<f64>();
     // The four samples of a cell have equal projected weight.
@@ -112,7 +116,7 @@ fn row_by(stencils: &Stencils, basis: &RingBasis, points: &[Point]) -> (Vec<f64>
     (row, stencils.beyond, left_out(points))
 }
 
-/// Sets the value of a cell to the mean of its points where there are many.
+/// Sets the value of each cell that contains many points to their mean.
 fn means_of_many(basis: &RingBasis, points: &[Point], row: &mut [f64]) {
     let mut sums = vec![(0_u32, 0.0); basis.len()];
     for point in points {
@@ -128,7 +132,7 @@ fn means_of_many(basis: &RingBasis, points: &[Point], row: &mut [f64]) {
     }
 }
 
-/// Returns the finding that states the error.
+/// Returns the finding that states the error of the resampling.
 fn stated(errors: &[f64], how: String) -> Finding {
     let mut sorted = errors.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -146,7 +150,8 @@ fn stated(errors: &[f64], how: String) -> Finding {
     }
 }
 
-/// Returns the rings whose cells have the points as centres, and for every point its cell.
+/// Returns the rings of cells that have the points as their centres, and for every point the index of its cell; `None`
+/// if there are no such rings.
 fn own_rings(points: &[Point]) -> Option<(RingBasis, Vec<usize>)> {
     // θ′ and φ′ in degrees, sorted.
     let mut sorted: Vec<(f64, f64, usize)> = points
@@ -228,7 +233,7 @@ fn on_own_rings(list: &[(Incidence, Vec<Point>)], basis: RingBasis, cells: &[usi
     Resampled { basis, rows, findings }
 }
 
-/// Returns cells about as large as the distance of the closer points.
+/// Returns a division of the hemisphere into cells about as wide as the distance between close points.
 fn cells_for(list: &[(Incidence, Vec<Point>)]) -> RingBasis {
     let (_, points) = list.iter().max_by_key(|(_, points)| points.len()).expect("there are incidences");
     let mut spacing = Cloud::new(points).spacings();
@@ -240,7 +245,7 @@ fn cells_for(list: &[(Incidence, Vec<Point>)]) -> RingBasis {
     even_rings(close.clamp(least, least.max(10_f64.to_radians())))
 }
 
-/// Returns rings of one step with sectors about as wide. `step` in \[rad\].
+/// Returns a division of the hemisphere into rings of the width `step` \[rad\], with sectors about as wide.
 pub(super) fn even_rings(step: f64) -> RingBasis {
     let count = (FRAC_PI_2 / step).round().max(1.0);
     let step = FRAC_PI_2 / count;
@@ -255,7 +260,7 @@ pub(super) fn even_rings(step: f64) -> RingBasis {
     RingBasis::new(name, rings, AzimuthMap::FACADE).expect("equal steps divide the hemisphere")
 }
 
-/// Returns four directions in every cell, of equal projected weight.
+/// Returns four directions in every cell, which represent equal projected solid angles.
 fn samples(basis: &RingBasis) -> Vec<DVec3> {
     let mut list = Vec::with_capacity(4 * basis.len());
     for cell in basis.cells() {
@@ -270,7 +275,7 @@ fn samples(basis: &RingBasis) -> Vec<DVec3> {
     list
 }
 
-/// Returns the share of the light that is missed when every point is predicted from its neighbours alone.
+/// Returns the error, as a share of the light, of predicting every point from its neighbours alone.
 fn left_out(points: &[Point]) -> f64 {
     const TESTED: usize = 1500;
     let cloud = Cloud::new(points);
@@ -291,7 +296,7 @@ fn left_out(points: &[Point]) -> f64 {
 
 type Stencil = [(u32, f64); NEIGHBOURS];
 
-/// Interpolation of one incidence's points at the samples of all cells.
+/// Interpolation weights of the points of one incident direction for the samples of all cells.
 struct Stencils {
     list: Vec<Stencil>,
     /// Share of the samples that are far from all points.
@@ -310,7 +315,8 @@ impl Stencils {
     }
 }
 
-/// Set of points, sorted into a grid of squares of equal solid angle on Lambert's disc.
+/// Points sorted into a grid of squares of equal solid angle in Lambert's equal-area projection, for the search of
+/// neighbours.
 struct Cloud {
     points: Vec<DVec3>,
     side: usize,
@@ -350,7 +356,8 @@ impl Cloud {
         Self { points, side, start, order }
     }
 
-    /// Returns the nearest points with the squares of their chords, in rising order.
+    /// Returns the `count` points nearest to the direction `v`, each with the square of its chord to `v`, in rising
+    /// order; `without`: point to leave out.
     fn neighbours(&self, v: DVec3, count: usize, without: Option<usize>) -> Vec<(f64, u32)> {
         let [cx, cy] = lambert(v).map(|t| ((t * self.side as f64) as usize).min(self.side - 1) as isize);
         let side = self.side as isize;
@@ -387,7 +394,8 @@ impl Cloud {
         found
     }
 
-    /// Returns the weights 1/d² of the nearest points, with sum 1.
+    /// Returns the nearest points of the direction `v` with their weights proportional to 1/d², of sum 1; `without`:
+    /// point to leave out.
     fn stencil(&self, v: DVec3, without: Option<usize>) -> Stencil {
         let near = self.neighbours(v, NEIGHBOURS, without);
         let mut stencil = [(0, 0.0); NEIGHBOURS];
@@ -405,7 +413,8 @@ impl Cloud {
         stencil
     }
 
-    /// Returns the distance of every point to its nearest neighbour; of a sample where there are many.
+    /// Returns the distance of every point (of a sample, if there are many) to its nearest neighbour, as a chord of the
+    /// unit sphere.
     fn spacings(&self) -> Vec<f64> {
         let step = self.points.len().div_ceil(4000).max(1);
         (0..self.points.len())

@@ -1,8 +1,8 @@
-//! Texts as TOML strings.
+//! Notation of texts as TOML strings.
 
 use std::fmt::Write as _;
 
-/// Returns a TOML basic string on one line.
+/// Returns a text as a TOML basic string on one line.
 pub(super) fn quoted(text: &str) -> String {
     let mut out = String::with_capacity(text.len() + 2);
     out.push('"');
@@ -22,7 +22,8 @@ pub(super) fn quoted(text: &str) -> String {
     out
 }
 
-/// Returns a TOML string with the text unchanged over several lines, where that can be read back.
+/// Returns a text as a TOML string over several lines with its characters unchanged, if that can be read back;
+/// otherwise on one line.
 pub(super) fn lines(text: &str) -> String {
     let plain = !text.contains("'''")
         && !text.ends_with('\'')

@@ -1,4 +1,4 @@
-//! Reading of a dataset from text: header, records, symmetry, order, plausibility.
+//! Reading of a dataset from a `.btdf.txt` file: header, records, symmetry, order, plausibility.
 
 use super::beams::fingerprint;
 use super::frame::Naming;
@@ -15,18 +15,19 @@ use crate::formats::encoding::{decode, repaired};
 use crate::formats::location::{FormatError, Location};
 use std::sync::Arc;
 
-/// Sum of an indicatrix above which it is refused, even if it is in percent.
+/// Direct-hemispherical value of an indicatrix above which the file is refused, even if it is in percent.
 const IMPOSSIBLE: f64 = 150.0;
-/// Sum of an indicatrix above which the numbers are assumed to be in another unit.
+/// Direct-hemispherical value of an indicatrix above which the values are assumed to be in another unit.
 const OTHER_UNIT: f64 = 1.5;
-/// Sum up to which a forgotten π or cosine explains as much as percent; above it the data check assumes percent.
+/// Direct-hemispherical value up to which a missing π or cosine explains the values as well as percent; above it the
+/// data check assumes percent.
 const OTHER_FACTOR: f64 = 4.0;
-/// Sum above which the data are not fit for use.
+/// Direct-hemispherical value above which the data are not fit for use.
 const PLAUSIBLE: f64 = 1.05;
-/// Sum up to which an excess over 1 counts as rounding.
+/// Direct-hemispherical value up to which an excess over 1 counts as rounding.
 const ROUNDING: f64 = 1.001;
 
-/// Reads one file into one dataset with one of the four visible functions.
+/// Reads a `.btdf.txt` file into a dataset that has one of the four visible functions.
 ///
 /// # Errors
 /// Returns an error, with line, what was found and what was expected, if the meaning of the numbers is ambiguous: no
@@ -85,7 +86,7 @@ pub fn read(bytes: &[u8]) -> Result<Dataset, FormatError> {
     Ok(dataset)
 }
 
-/// Returns the catalogue data in the header of a file, beyond the dataset.
+/// Returns the product data for the catalogue in the header of a `.btdf.txt` file, beyond its dataset.
 ///
 /// # Errors
 /// Returns an error if the header is not valid.
@@ -93,7 +94,7 @@ pub fn catalogue_fields(bytes: &[u8]) -> Result<CatalogueFields, FormatError> {
     Ok(split(&decode(bytes)?)?.header.fields)
 }
 
-/// Data of the file itself, before symmetry is applied.
+/// Data that the file states, before symmetry is applied.
 struct Measured {
     list: Vec<Incidence>,
     rows: Vec<f64>,
@@ -135,8 +136,8 @@ fn no_records(line: usize) -> FormatError {
     FormatError::new(Location::line(line), "no records behind the header", "a line of numbers for every incidence")
 }
 
-/// Checks the sums of all indicatrices: adds findings on sums above 1 and on data without light, or refuses impossible
-/// ones.
+/// Checks the direct-hemispherical values of all indicatrices: adds findings on values above 1 and on data without
+/// light, or returns an error for impossible ones.
 fn plausible(
     header: &Header,
     list: &[Incidence],
@@ -185,10 +186,11 @@ fn plausible(
     Ok(())
 }
 
-/// Directions, rows in their order, and the lattice whose cell centres the directions are, if there is one.
+/// Incident directions, values in rows in the same order, and the lattice of whose cells the directions are the
+/// centres, if there is one.
 type Ordered = (Vec<Dir<Facade>>, Vec<f64>, Option<RingBasis>);
 
-/// Brings the incidences into the order of their lattice, adds those that a declared symmetry gives, and reports
+/// Sorts the incident directions in the order of their lattice, adds those that a declared symmetry gives, and reports
 /// missing ones.
 fn complete(
     header: &Header,

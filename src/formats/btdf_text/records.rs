@@ -7,13 +7,14 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::limits;
 use crate::formats::location::{FormatError, Location, excerpt};
 
-/// Maximum luminance coefficient that a goniophotometer can resolve in a cell: all light in 0.001°. \[1/sr\]
+/// Maximum luminance coefficient that is accepted: all light within 0.001°, more than a goniophotometer can resolve.
+/// \[1/sr\]
 const LARGEST_Q: f64 = limits::COEFFICIENT;
 
-/// Incident direction of a record.
+/// Incident direction of a record, as the file states it and as it is stored.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Incidence {
-    /// Line of its (first) record, from 1.
+    /// Line number of its (first) record, from 1.
     pub line: usize,
     /// Polar angle as the file gives it. \[°\]
     pub theta: f64,
@@ -23,19 +24,20 @@ pub(super) struct Incidence {
     pub name: Dir<Facade>,
 }
 
-/// Value at an emergent direction.
+/// Value of q at an emergent direction.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     /// Stored direction of the emergent light, see [`super::frame`].
     pub name: Dir<Facade>,
-    /// Luminance coefficient. \[1/sr\]
+    /// Luminance coefficient q. \[1/sr\]
     pub q: f64,
 }
 
-/// Noise around zero, relative to the largest value: values no further below zero are set to 0.
+/// Maximum measurement noise around zero, relative to the largest value of the file: negative values within it are set
+/// to 0.
 const NOISE: f64 = 1e-3;
 
-/// Values below zero: their number, the lowest of them and its place.
+/// Negative values of a file: their number, the lowest of them and its position.
 #[derive(Debug, Default)]
 struct Below {
     count: usize,
@@ -44,7 +46,7 @@ struct Below {
 }
 
 impl Below {
-    /// Counts a negative value and returns 0.
+    /// Counts a negative value and returns the 0 that replaces it.
     #[cold]
     fn take(&mut self, line: &Line, field: &str, value: f64) -> f64 {
         self.count += 1;
@@ -54,7 +56,7 @@ impl Below {
         0.0
     }
 
-    /// Returns a finding on noise, or an error at the lowest value if it is more than noise. `largest`: largest value
+    /// Returns a finding on noise, or an error at the lowest value if it is beyond the noise. `largest`: largest value
     /// of the file.
     fn judged(self, largest: f64) -> Result<Option<Finding>, FormatError> {
         let Some(place) = self.place else { return Ok(None) };
@@ -78,7 +80,7 @@ impl Below {
     }
 }
 
-/// Line of numbers, read from left to right.
+/// Line of a file with numbers, read from left to right.
 struct Line<'a> {
     text: &'a str,
     number: usize,
@@ -127,7 +129,7 @@ impl<'a> Line<'a> {
         Ok((theta, phi, name))
     }
 
-    /// Reads a value: 0 or more, or a little less because of noise.
+    /// Reads a value of q: 0 or more, or slightly negative because of noise.
     fn value(&self, field: &str, below: &mut Below) -> Result<f64, FormatError> {
         // NaN and infinity fail both comparisons.
         match field.parse::<f64>() {
@@ -149,13 +151,13 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Incidences, and all their values, one incidence after the other.
+/// Incident directions, and the values of q of all of them, one direction after the other.
 pub(super) type Rings = (Vec<Incidence>, Vec<f64>);
-/// Incidences, each with its points.
+/// Incident directions, each with its points (values of q at emergent directions).
 pub(super) type Points = Vec<(Incidence, Vec<Point>)>;
 
-/// Reads the layout `rings`. Returns the incidences, their values one incidence after the other in the file's order of
-/// cells, and a finding on noise below 0.
+/// Reads the layout `rings`. Returns the incident directions, their values one direction after the other in the file's
+/// order of emergent cells, and a finding if negative noise was set to 0.
 pub(super) fn ring_records(
     body: &str,
     first_line: usize,
@@ -198,7 +200,8 @@ fn too_many(line: usize) -> FormatError {
     )
 }
 
-/// Reads the layout `points`. Returns the incidences, each with its points, and a finding on noise below 0.
+/// Reads the layout `points`. Returns the incident directions, each with its points, and a finding if negative noise
+/// was set to 0.
 pub(super) fn point_records(
     body: &str,
     first_line: usize,

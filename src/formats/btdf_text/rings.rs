@@ -5,14 +5,16 @@ use super::frame::Naming;
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
 use crate::formats::location::{FormatError, Location};
 
-/// Emergent cells, and for every cell the column of the file that holds it, where the two orders differ.
+/// Emergent cells of a file, and for every cell the column of the file with its value, if the two orders differ.
 pub(super) struct FileRings {
+    /// Emergent cells of the rings.
     pub basis: RingBasis,
+    /// Index of the column of the file for every cell; `None` if the orders are the same.
     pub columns: Option<Vec<usize>>,
 }
 
-/// Returns the cells of the header's rings. The file's order is kept when the rings rise or fall throughout; else they
-/// are sorted.
+/// Returns the emergent cells of the rings that the header lists. Their order is that of the file if the rings rise or
+/// fall throughout; otherwise they are sorted.
 pub(super) fn file_rings(list: &[[f64; 3]], line: usize, naming: Naming) -> Result<FileRings, FormatError> {
     let at = |k: usize| Location::line(line).in_element(format!("rings, ring {}", k + 1));
     let [low, high] = naming.range();

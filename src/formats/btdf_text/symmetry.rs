@@ -1,4 +1,4 @@
-//! Incidences that a declared symmetry adds: the images of measured ones.
+//! Incident directions that a declared symmetry adds: the images of measured ones.
 //!
 //! A symmetric system has q(gω_e, gω′) = q(ω_e, ω′) for a mirroring or rotation g about the normal. Stored directions
 //! are mirrored and rotated like directions of the file, so that this can be done with the stored ones.
@@ -11,7 +11,7 @@ use crate::compute::btdf::Finding;
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::PI;
 
-/// Symmetry operation: φ ↦ sign · φ + offset, θ unchanged.
+/// Symmetry operation on directions: φ ↦ sign · φ + offset \[rad\], θ unchanged.
 #[derive(Debug, Clone, Copy)]
 struct Image {
     sign: f64,
@@ -23,8 +23,8 @@ impl Image {
         Dir::from_theta_phi(d.theta(), self.sign * d.phi() + self.offset)
     }
 
-    /// Returns the function whose value at ω′ is that of `row` at the image of ω′, as means over the same cells; and
-    /// whether cells only changed places.
+    /// Returns the values of the cells of `row` under this operation, as means over the same cells, and whether cells
+    /// were only exchanged (no averaging).
     fn row(self, basis: &RingBasis, row: &[f64]) -> (Vec<f64>, bool) {
         const EXACT: f64 = 1e-7;
         let mut out = Vec::with_capacity(row.len());
@@ -66,10 +66,12 @@ fn mirrors(symmetry: Symmetry) -> &'static [Image] {
     }
 }
 
-/// Incidences with their rows, and the number of measured ones, which come at the front.
+/// Incident directions with their values: first the measured ones, then those that symmetry adds.
 #[derive(Debug)]
 pub(super) struct Known {
+    /// Incident directions in the façade frame.
     pub names: Vec<Dir<Facade>>,
+    /// Values q of the emergent cells, in one row for each incident direction. \[1/sr\]
     pub rows: Vec<f64>,
 }
 
@@ -82,7 +84,8 @@ impl Known {
         self.names[..among].iter().position(|name| chord(*name, d) < SAME_DIRECTION)
     }
 
-    /// Returns the measured incidence and the image by which it gives `wanted`.
+    /// Returns the index of the measured incident direction, and the operation by which it gives the direction
+    /// `wanted`; `None` if there is none.
     fn source(&self, measured: usize, symmetry: Symmetry, wanted: Dir<Facade>) -> Option<(usize, Image)> {
         if symmetry == Symmetry::Rotational {
             let turn = |name: Dir<Facade>| {
@@ -98,8 +101,8 @@ impl Known {
     }
 }
 
-/// Returns the directions that a symmetry adds to a list: mirror images; for rotational symmetry rotations of every θ,
-/// as many as a row of Tregenza's lattice at that θ has.
+/// Returns the incident directions that a symmetry adds to a list: mirror images; for rotational symmetry as many
+/// rotations of every θ as a row of Tregenza's lattice at that θ has directions.
 fn wanted(names: &[Dir<Facade>], symmetry: Symmetry) -> Vec<Dir<Facade>> {
     if symmetry != Symmetry::Rotational {
         return names.iter().flat_map(|name| mirrors(symmetry).iter().map(|image| image.of(*name))).collect();
@@ -114,8 +117,8 @@ fn wanted(names: &[Dir<Facade>], symmetry: Symmetry) -> Vec<Dir<Facade>> {
         .collect()
 }
 
-/// Adds incidences by symmetry: the missing directions of a lattice, or images of all listed ones. Stops at `most`
-/// incidences.
+/// Adds incident directions by symmetry: the `missing` ones of a lattice, or images of all listed ones. Stops at `most`
+/// directions. Returns findings.
 pub(super) fn fill(
     known: &mut Known,
     basis: &RingBasis,
@@ -154,7 +157,7 @@ pub(super) fn fill(
     findings
 }
 
-/// Returns a finding if the measured incidences contradict the symmetry.
+/// Returns a finding if the measured data contradict the declared symmetry.
 fn broken(known: &Known, basis: &RingBasis, symmetry: Symmetry) -> Option<Finding> {
     const TOLERATED: f64 = 0.1;
     let weights = basis.projected_solid_angles();

@@ -1,8 +1,8 @@
-//! Writing of the layout `rings`, one function of one state per file.
+//! Writing of `.btdf.txt` files in the layout `rings`, one function of one state per file.
 //!
-//! Values are written with all their digits. Incident and emergent cells keep their own rings where the file can
-//! express them: sectors with one centred on φ = 0. Everything else is averaged: incidence over Klems' cells, emergence
-//! over rings of 5° or the own rings with rotated sectors; a finding reports it.
+//! Values are written with all their digits. Incident and emergent cells are written unchanged where the file can
+//! express them: rings with one sector centred on φ = 0. Everything else is averaged: over Klems cells for incident
+//! directions, over rings of 5° or the same rings with rotated sectors for emergent ones; a finding reports it.
 
 use super::FORMAT;
 use super::beams::added;
@@ -16,8 +16,8 @@ use crate::formats::Written;
 use crate::formats::location::{FormatError, Location};
 use std::fmt::Write as _;
 
-/// Returns the dataset's transmission from outside as a file, or, without one, its first function. Findings report what
-/// else it holds; [`write_component`] writes that.
+/// Returns a file of the dataset's transmission from outside or, without one, of its first function. Findings list the
+/// functions that the file does not contain; [`write_component`] writes those.
 ///
 /// # Errors
 /// Returns an error if the dataset has no visible function.
@@ -40,7 +40,7 @@ pub fn write(dataset: &Dataset) -> Result<Written, FormatError> {
     Ok(written)
 }
 
-/// Returns one of the dataset's functions as a file.
+/// Returns a `.btdf.txt` file of one function of the dataset.
 ///
 /// # Errors
 /// Returns an error if the dataset does not have that function.
@@ -71,13 +71,13 @@ pub fn write_component(dataset: &Dataset, component: Component) -> Result<Writte
     Ok(Written { bytes: added(text, dataset)?.into_bytes(), findings })
 }
 
-/// Data of the file, in the order of the file.
+/// Data of a file in its order: incident directions, emergent cells, values.
 struct Table {
     incidence: &'static str,
     mean: bool,
     names: Vec<Dir<Facade>>,
     emergent: RingBasis,
-    /// Rows of values, one per incidence, in the order of `emergent`.
+    /// Values of q \[1/sr\] in one row per incident direction, in the order of `emergent`.
     rows: Vec<Vec<f64>>,
 }
 
@@ -205,7 +205,7 @@ fn lattice_word(lattice: Option<&RingBasis>) -> &'static str {
     }
 }
 
-/// Returns the rings of a basis with azimuths counted as in a file.
+/// Returns the rings of a basis with azimuths counted as in the file.
 fn file_basis(own: &RingBasis, naming: Naming) -> RingBasis {
     let rings: Vec<Ring> = own.rings().iter().map(|ring| Ring { first_phi: 0.0, ..*ring }).collect();
     RingBasis::new(own.name(), rings, AzimuthMap { sign: 1.0, offset: naming.turn() })

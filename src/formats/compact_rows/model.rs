@@ -1,8 +1,9 @@
-//! Coding order of the levels of an indicatrix, and the contexts from which the next bit is predicted.
+//! Coding order of the quantised wavelet coefficients (levels) of an indicatrix, and the contexts from which the next
+//! bit is predicted.
 //!
 //! Groups of cells are visited from coarse to fine. A group begins with a bit: whether anything in it differs from
-//! zero; if not, nothing below it is coded. Chances depend on the group around (large coefficients have large ones
-//! below them), on the number of the wavelet in its group, and on how many before it were not zero.
+//! zero; if not, nothing below it is coded. Probabilities depend on the parent group (large coefficients have large
+//! ones below them), on the number of the wavelet in its group, and on how many before it were not zero.
 
 use super::range_coder::{Chance, Decoder, Encoder};
 use crate::compute::wavelet::Transform;
@@ -12,27 +13,27 @@ pub trait Bits {
     /// Codes a bit in a context, and returns it. A writer writes `bit`; a reader ignores `bit` and returns the bit that
     /// was read.
     fn bit(&mut self, context: usize, bit: bool) -> bool;
-    /// Codes a bit without context, and returns it.
+    /// Codes a bit that is equally often 0 and 1, without context, and returns it.
     fn even(&mut self, bit: bool) -> bool;
 }
 
 const ACTIVITIES: usize = 4;
 const LEVELS: usize = 16;
 const WAVELETS: usize = 8;
-/// Number of binary digits of a magnitude that have contexts of their own.
+/// Number of binary digits of a coefficient's magnitude that have separate contexts.
 const DIGITS: usize = 12;
-/// Maximum number of binary digits of a magnitude.
+/// Maximum number of binary digits of a coefficient's magnitude.
 const MOST_DIGITS: usize = 25;
 const GROUP: usize = 0;
 const ZERO: usize = GROUP + LEVELS * ACTIVITIES * 3;
 const MORE: usize = ZERO + 2 * WAVELETS * ACTIVITIES * 3;
 const SECOND: usize = MORE + DIGITS * ACTIVITIES * LEVELS;
 const ROOT: usize = SECOND + DIGITS;
-/// Number of contexts.
+/// Number of contexts from which bits are predicted.
 pub const CONTEXTS: usize = ROOT + 9;
 
-/// Writes or reads all levels of one indicatrix. `levels` holds them, or zeros that are filled in. Returns `false` for
-/// a magnitude that no writer writes.
+/// Writes or reads all quantised coefficients of one indicatrix: `levels` contains them for writing, or zeros that are
+/// replaced in reading. Returns `false` for a magnitude that is too large to be valid.
 pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) -> bool {
     let blocks = transform.blocks();
     let count = blocks.len();
@@ -95,7 +96,8 @@ pub fn visit(transform: &Transform, levels: &mut [i32], bits: &mut impl Bits) ->
     sound
 }
 
-/// Codes a sign, the number of binary digits one by one, then the digits after the first: the second has a context.
+/// Codes a coefficient: its sign, the number of its binary digits in unary, then the digits after the first, of which
+/// the second has a context.
 fn magnitude(value: i32, place: usize, bits: &mut impl Bits, sound: &mut bool) -> i32 {
     let negative = bits.even(value < 0);
     let absolute = value.unsigned_abs().max(1);
@@ -138,7 +140,7 @@ impl Bits for Counter {
     }
 }
 
-/// Writer of bits, with initial chances from a table.
+/// Writer of bits by an arithmetic coder, with initial probabilities from a table.
 #[derive(Debug)]
 pub struct Writer {
     coder: Encoder,
@@ -146,12 +148,12 @@ pub struct Writer {
 }
 
 impl Writer {
-    /// Creates a writer; `table` has one byte per context.
+    /// Creates a writer; `table` contains the initial probability of each context as a byte, see [`Chance::from_byte`].
     pub fn new(table: &[u8]) -> Self {
         Self { coder: Encoder::default(), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
     }
 
-    /// Returns the bytes.
+    /// Returns the bytes of all bits written.
     pub fn finish(self) -> Vec<u8> {
         self.coder.finish()
     }
@@ -177,7 +179,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Creates a reader; `table` has one byte per context and is that of the writer.
+    /// Creates a reader; `table` contains one byte per context and must be the table of the writer.
     pub fn new(table: &[u8], bytes: &'a [u8]) -> Self {
         Self { coder: Decoder::new(bytes), chances: table.iter().map(|byte| Chance::from_byte(*byte)).collect() }
     }

@@ -1,22 +1,23 @@
 //! Binary arithmetic coder: bits with estimated probabilities become a string of bytes of almost their entropy.
 //!
-//! It is the carry-propagating range coder of LZMA (Martin 1979, Pavlov), with probabilities of 16 bits that adapt to
-//! the bits coded before.
+//! It is the carry-propagating range coder of LZMA (Martin 1979, Pavlov), with 16-bit probabilities that adapt to the
+//! bits coded before.
 
-/// Chance that a bit is 0, in 65536ths; adapts to the bits that were coded.
+/// Probability that a bit is 0, in 65536ths; adapts to the bits that were coded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chance(u16);
 
-/// Adaptation rate: each bit moves the chance by 1/2^RATE of its distance.
+/// Adaptation rate: each bit changes the probability by 1/2^RATE of its difference from that bit.
 const RATE: u16 = 6;
 
 impl Chance {
-    /// Creates a chance from a byte, 0 = almost never 0, 255 = almost always.
+    /// Creates a probability from a byte: 0 means that the bit is almost never 0, 255 that it almost always is.
     pub const fn from_byte(byte: u8) -> Self {
         Self(((byte as u16) << 8) | 128)
     }
 
-    /// Returns the byte for the observed numbers of zeros and ones; near 1/2 for few bits.
+    /// Returns the byte, as for [`Self::from_byte`], of the probability estimated from the observed numbers of zeros
+    /// and ones; near 1/2 for few bits.
     pub fn byte_for(zeros: u64, ones: u64) -> u8 {
         ((zeros as f64 + 0.4) / (zeros as f64 + ones as f64 + 0.8) * 256.0) as u8
     }
@@ -31,10 +32,10 @@ impl Chance {
     }
 }
 
-/// Minimum range; a smaller one is widened by a byte.
+/// Minimum range of the coder; a smaller one is extended by a byte.
 const LEAST_RANGE: u32 = 1 << 24;
 
-/// Encoder of bits.
+/// Arithmetic encoder of bits.
 #[derive(Debug)]
 pub struct Encoder {
     low: u64,
@@ -52,7 +53,7 @@ impl Default for Encoder {
 }
 
 impl Encoder {
-    /// Writes a bit with its chance.
+    /// Writes a bit with its probability, and adapts the latter.
     pub fn bit(&mut self, chance: &mut Chance, bit: bool) {
         let bound = (self.range >> 16) * u32::from(chance.0);
         if bit {
@@ -65,7 +66,7 @@ impl Encoder {
         self.widen();
     }
 
-    /// Writes a bit that is as often 0 as 1.
+    /// Writes a bit that is equally often 0 and 1.
     pub fn even_bit(&mut self, bit: bool) {
         self.range >>= 1;
         if bit {
@@ -97,7 +98,7 @@ impl Encoder {
         self.low = (self.low & 0x00FF_FFFF) << 8;
     }
 
-    /// Returns the bytes; zeros at the end are left out, as [`Decoder`] reads zeros there.
+    /// Returns the bytes of all bits written, without zeros at the end, where [`Decoder`] reads zeros anyway.
     pub fn finish(mut self) -> Vec<u8> {
         // The roundest number within the range.
         let top = self.low + u64::from(self.range) - 1;
@@ -119,7 +120,7 @@ impl Encoder {
     }
 }
 
-/// Decoder of the bytes that [`Encoder`] wrote; other bytes give other bits, and never an end.
+/// Arithmetic decoder of the bytes that [`Encoder`] wrote. From other bytes it reads some bits without end.
 #[derive(Debug)]
 pub struct Decoder<'a> {
     bytes: &'a [u8],
@@ -148,7 +149,7 @@ impl<'a> Decoder<'a> {
         self.code = self.code << 8 | u32::from(byte);
     }
 
-    /// Reads a bit with its chance.
+    /// Reads a bit with its probability, and adapts the latter.
     pub fn bit(&mut self, chance: &mut Chance) -> bool {
         let bound = (self.range >> 16) * u32::from(chance.0);
         let bit = self.code >= bound;
@@ -163,7 +164,7 @@ impl<'a> Decoder<'a> {
         bit
     }
 
-    /// Reads a bit that is as often 0 as 1.
+    /// Reads a bit that is equally often 0 and 1.
     pub fn even_bit(&mut self) -> bool {
         self.range >>= 1;
         let bit = self.code >= self.range;

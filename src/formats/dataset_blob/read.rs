@@ -1,4 +1,5 @@
-//! Reading of the compact binary form: every count is checked against the available bytes before memory is allocated.
+//! Reading of the compact binary format of datasets: every count is checked against the available bytes before memory
+//! is allocated.
 
 use super::{BlobError, FIRST, MAGIC, VERSION, join_planes};
 use crate::compute::basis::{AzimuthMap, Ring, RingBasis};
@@ -15,22 +16,22 @@ use std::collections::HashSet;
 use std::io::Read;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Maximum number of values of one matrix: 16 million, four times a 1° × 1° instrument's hemisphere for 145 incidences
-/// over 2°.
+/// Maximum number of values of one matrix, 16 million: four times the data of a goniophotometer with 1° resolution at
+/// 145 incident directions.
 const MOST_VALUES: usize = limits::VALUES;
-/// Maximum number of incident directions of one list; they are compared pair by pair.
+/// Maximum number of incident directions of one function; they are compared pair by pair.
 const MOST_DIRECTIONS: usize = limits::INCIDENCES;
 /// Maximum number of cells of one basis.
 const MOST_CELLS: usize = limits::CELLS;
 
-/// Returns the dataset in the bytes. Hostile bytes give an error, never a panic nor memory beyond the limits of this
-/// module.
+/// Reads a dataset in the binary format. Malicious bytes give an error, never a panic or more memory than the limits of
+/// this module.
 pub fn decode(bytes: &[u8]) -> Result<Dataset, BlobError> {
     decode_within(bytes, &mut { limits::DECODED_BYTES })
 }
 
-/// Returns one of several datasets that share a budget of memory: `left` is what remains of it \[bytes\], checked
-/// before memory is allocated.
+/// Reads one of several datasets that share a memory budget: `left` is the remaining memory \[bytes\], checked before
+/// it is allocated and reduced by what the dataset needs.
 pub fn decode_within(bytes: &[u8], left: &mut u64) -> Result<Dataset, BlobError> {
     if !bytes.starts_with(MAGIC) {
         return Err(BlobError::Magic);
@@ -78,12 +79,12 @@ pub fn decode_within(bytes: &[u8], left: &mut u64) -> Result<Dataset, BlobError>
 struct Reader<'a, 'b> {
     bytes: &'a [u8],
     at: usize,
-    /// Number of bytes that values may still take.
+    /// Remaining memory for values. \[bytes\]
     left: &'b mut u64,
 }
 
 impl<'a> Reader<'a, '_> {
-    /// Subtracts the memory of `values` numbers from the budget.
+    /// Subtracts the memory of `values` numbers from the remaining budget, or returns an error if it is exceeded.
     fn spend(&mut self, values: usize) -> Result<(), BlobError> {
         match self.left.checked_sub((values * size_of::<f64>()) as u64) {
             Some(left) => {
@@ -127,7 +128,7 @@ impl<'a> Reader<'a, '_> {
         }
     }
 
-    /// Reads a count of items of which each takes at least `least` bytes.
+    /// Reads the number of items that follow, each at least `least` bytes long; an error if there are not enough bytes.
     fn count(&mut self, least: usize) -> Result<usize, BlobError> {
         let count = u32::from_le_bytes(self.array()?) as usize;
         if count.saturating_mul(least) > self.bytes.len() - self.at {
@@ -252,7 +253,7 @@ impl<'a> Reader<'a, '_> {
         CellMatrix::from_compact(incident, rows).map_or_else(|| self.invalid("rows do not fit the cells"), Ok)
     }
 
-    /// Reads `count` rows in compact form.
+    /// Reads `count` indicatrices that are compressed by wavelets.
     fn compact(&mut self, count: usize, emergent: RingBasis) -> Result<Arc<CompactRows>, BlobError> {
         if count.saturating_mul(emergent.len()) > MOST_VALUES {
             return self.invalid(format!("{count} compact rows of {} cells (at most {MOST_VALUES})", emergent.len()));
@@ -291,7 +292,7 @@ impl<'a> Reader<'a, '_> {
         data.map_or_else(|| self.invalid("values do not fit the directions, or two directions coincide"), Ok)
     }
 
-    /// Reads `rows` × `columns` packed values.
+    /// Reads `rows` × `columns` compressed values.
     fn values(&mut self, rows: usize, columns: usize) -> Result<Vec<f32>, BlobError> {
         let count = self.count(0)?;
         if count > MOST_VALUES || count != rows.saturating_mul(columns) {
@@ -304,7 +305,7 @@ impl<'a> Reader<'a, '_> {
         self.possible(values)
     }
 
-    /// Returns the values unless one is not a number or too large for any function.
+    /// Returns the values, or an error if one is not a number or is too large for any function.
     fn possible<T: Copy + Into<f64>>(&self, values: Vec<T>) -> Result<Vec<T>, BlobError> {
         let mut all = values.iter().map(|value| (*value).into());
         match all.find(|value: &f64| value.is_nan() || value.abs() > limits::COEFFICIENT) {
@@ -343,7 +344,7 @@ impl<'a> Reader<'a, '_> {
         TensorTree::new(rank, axes, nodes).or_else(|error| self.invalid(error.to_string()))
     }
 
-    /// Decompresses exactly `size` bytes; memory grows only as bytes really come.
+    /// Decompresses exactly `size` bytes; memory is allocated only for bytes that exist.
     fn unpack(&self, packed: &[u8], size: usize) -> Result<Vec<u8>, BlobError> {
         let mut plain = Vec::new();
         let read = zstd::stream::read::Decoder::new(packed)
@@ -373,8 +374,7 @@ impl<'a> Reader<'a, '_> {
     }
 }
 
-/// Returns a finding code that lives as long as the program. Those read from outside are kept once each, up to a
-/// limited number.
+/// Returns the code of a finding as a static string. Unknown codes are stored once each, up to a limited number.
 fn code(text: &str) -> &'static str {
     const OTHER: &str = "other";
     static CODES: OnceLock<Mutex<HashSet<&'static str>>> = OnceLock::new();

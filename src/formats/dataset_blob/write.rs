@@ -1,4 +1,4 @@
-//! Writing of the compact binary form.
+//! Writing of the compact binary format of datasets.
 
 use super::{FIRST, MAGIC, VERSION, split_planes};
 use crate::compute::basis::RingBasis;
@@ -10,13 +10,13 @@ use crate::compute::wavelet::CompactRows;
 use crate::formats::compact_rows;
 use std::borrow::Cow;
 
-/// Returns the bytes of a dataset. The same dataset always gives the same bytes.
+/// Returns a dataset in the binary format. Equal datasets always give equal bytes.
 pub fn encode(dataset: &Dataset) -> Vec<u8> {
     with_words(dataset, words(dataset), &dataset.findings, &functions(dataset))
 }
 
-/// Returns the bytes of a dataset as [`encode`] does, and those of its copy without words and findings. Its functions
-/// are packed once.
+/// Returns a dataset in the binary format like [`encode`], and also the bytes of a copy without texts (names,
+/// description, bases) and findings. The functions are compressed only once.
 pub fn encode_with_wordless(dataset: &Dataset) -> [Vec<u8>; 2] {
     let functions = functions(dataset);
     [with_words(dataset, words(dataset), &dataset.findings, &functions), with_words(dataset, [""; 7], &[], &functions)]
@@ -67,7 +67,7 @@ fn with_words(dataset: &Dataset, words: [&str; 7], findings: &[Finding], functio
     out.0
 }
 
-/// Returns one bit per component, in the order of [`Component::ALL`].
+/// Returns a bit mask of the given components, in the order of [`Component::ALL`].
 fn mask(components: impl Iterator<Item = Component>) -> u8 {
     components.fold(0, |mask, component| {
         mask | 1 << Component::ALL.iter().position(|&one| one == component).expect("ALL holds every component")
@@ -95,7 +95,7 @@ impl Writer {
         self.0.extend(text.as_bytes());
     }
 
-    /// Writes the kind of device, the number of known values, and each value with its place in `ThermalKey::ALL`.
+    /// Writes thermal data: kind of device, number of known values, and each value with its index in `ThermalKey::ALL`.
     fn thermal(&mut self, thermal: &Thermal) {
         self.text(&thermal.device);
         self.count(thermal.known().count());
@@ -192,7 +192,8 @@ impl Writer {
         self.0.extend(bytes);
     }
 
-    /// Writes rows of `columns` values each. Very large functions are never unfolded as a whole.
+    /// Writes `rows` rows of `columns` values each; `row` returns one of them, so that very large functions are never
+    /// uncompressed as a whole.
     fn values<'a>(&mut self, rows: usize, columns: usize, row: impl Fn(usize) -> Cow<'a, [f64]>) {
         let values = (0..rows).flat_map(|k| row(k).into_owned());
         let planes = split_planes(rows * columns, values);
@@ -202,8 +203,8 @@ impl Writer {
         self.0.extend(packed);
     }
 
-    /// Writes one byte per node for its kind, the first children of branches, then the leaves' values; compressed
-    /// together.
+    /// Writes a tensor tree, compressed: one byte per node for its kind, the indices of the branches' first children,
+    /// then the values of the leaves.
     fn tree(&mut self, tree: &TensorTree) {
         self.byte(if tree.rank() == TreeRank::Three { 3 } else { 4 });
         self.byte(u8::from(tree.axes() == TreeAxes::Back));
@@ -242,7 +243,7 @@ impl Writer {
     }
 }
 
-/// Whether the back function follows from the front one by reciprocity. Then it need not be stored.
+/// Whether the back transmission follows from the front one by reciprocity, so that it need not be stored.
 fn is_front_turned(front: &Btdf, back: &Btdf) -> bool {
     let (Some(Scattered::Cells(f)), Some(Scattered::Cells(b))) = (&front.scattered, &back.scattered) else {
         return false;

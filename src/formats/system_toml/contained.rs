@@ -1,7 +1,9 @@
-//! Self-contained descriptions, which name no other files: the layers of a stack are in its own text.
+//! Self-contained system descriptions, which refer to no other files: the descriptions of a stack's layers are
+//! contained in its text.
 //!
 //! `layers = [{ system = { name = "…", kind = "venetian", venetian = { … } }, state = "45" }, …]`. Such a text has the
-//! same meaning wherever it is, so that it can accompany data; [`self_contained`] makes it from one that names files.
+//! same meaning everywhere, so that it can be stored with data; [`self_contained`] makes it from one that refers to
+//! files.
 
 use super::layers::EACH_STATE;
 use super::read;
@@ -10,8 +12,9 @@ use crate::compute::system::SystemKind;
 use crate::compute::system::stack::LayerSource;
 use toml::{Table, Value};
 
-/// Returns a description with all its layers in it. `find` returns the self-contained text of a named layer, or `None`
-/// where it is measured data or is not found. A text that needs no other file is returned unchanged.
+/// Returns a system description with the descriptions of all its layers inserted. `find` returns the self-contained
+/// text of a layer, or `None` if the layer is measured data or is not found; then the result is `None`. A text that
+/// refers to no other file is returned unchanged.
 pub fn self_contained(text: &str, find: &mut dyn FnMut(&LayerSource) -> Option<String>) -> Option<String> {
     let SystemKind::Stack(layers) = read(text.as_bytes()).ok()?.system.kind else { return Some(text.to_owned()) };
     if states(text).is_some() {
@@ -37,8 +40,8 @@ pub fn self_contained(text: &str, find: &mut dyn FnMut(&LayerSource) -> Option<S
     states(&made).is_some().then_some(made)
 }
 
-/// Returns the keys of the states of a self-contained description; `None` for one that names other files or cannot be
-/// read.
+/// Returns the keys of the states of a self-contained description; `None` for one that refers to other files or cannot
+/// be read.
 pub fn states(text: &str) -> Option<Vec<String>> {
     let system = read(text.as_bytes()).ok()?.system;
     let SystemKind::Stack(layers) = &system.kind else { return Some(system.states()) };
@@ -55,8 +58,8 @@ pub fn states(text: &str) -> Option<Vec<String>> {
     Some(moving.unwrap_or_else(|| vec![String::new()]))
 }
 
-/// Returns the description that accompanies the data of one of its states; `None` unless it is self-contained and has
-/// the state.
+/// Returns a description with one of its states, to be stored with data of that state; `None` unless the text is
+/// self-contained and has the state.
 pub fn described(text: &str, state: &str) -> Option<DescribedState> {
     states(text)?
         .iter()

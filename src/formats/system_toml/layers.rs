@@ -1,4 +1,4 @@
-//! Layers of a stack: named by file or by key, or described in the stack itself.
+//! Layers of a stack in a system file: given by file or catalogue key, or described inside the stack.
 
 use super::checks::wrong;
 use super::keys;
@@ -6,12 +6,12 @@ use crate::compute::system::stack::{Layer, LayerSource};
 use crate::formats::location::{FormatError, Location};
 use toml::{Table, Value};
 
-/// Value of a layer's state that stands for all states of the layer.
+/// Value of a layer's key `state` that means each of the layer's states.
 pub const EACH_STATE: &str = "each";
-/// Maximum depth of stacks within stacks.
+/// Maximum depth of nested stacks (stacks whose layers are stacks).
 pub const MOST_NESTED: usize = 4;
 
-/// Returns the layers of a stack as they are named.
+/// Returns the layers of a stack with their sources and states.
 pub(super) fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
     if !(1..=10).contains(&stack.layers.len()) {
         return wrong("stack.layers", format!("{} layers", stack.layers.len()), "1 to 10, outside first");
@@ -32,7 +32,7 @@ pub(super) fn stack(stack: &keys::Stack) -> Result<Vec<Layer>, FormatError> {
     stack.layers.iter().enumerate().map(layer).collect()
 }
 
-/// Returns the text of a layer's own description.
+/// Returns the text of a description that the stack contains for a layer.
 fn own_text(key: &str, system: &Table) -> Result<String, FormatError> {
     if nested(system) >= MOST_NESTED {
         return wrong(key, "stacks within stacks within stacks", format!("at most {MOST_NESTED} of them"));
@@ -46,7 +46,7 @@ fn layers_of(system: &Table) -> Option<&Vec<Value>> {
     system.get("stack")?.get("layers")?.as_array()
 }
 
-/// Returns the depth of stacks within the stack.
+/// Returns the depth of nested stacks in a system description.
 fn nested(system: &Table) -> usize {
     let Some(layers) = layers_of(system) else { return 0 };
     let inner = layers.iter().filter_map(|layer| layer.get("system")?.as_table());

@@ -1,7 +1,7 @@
 //! System files (`.system.toml`): geometry and material of a system, for the virtual goniophotometer.
 //!
-//! Keys, defaults and ranges; an error names the key and what was expected. Materials may have solar properties beside
-//! the visible ones (`solar`).
+//! The module checks keys and ranges and fills in defaults; an error states the key and what was expected. Materials
+//! may have solar properties beside the visible ones (`solar`).
 
 mod checks;
 mod contained;
@@ -31,29 +31,30 @@ use transparent::{laser_cut, pane, prismatic, redirecting};
 
 /// Maximum size of a system file. \[bytes\]
 const MOST_BYTES: usize = limits::SYSTEM_BYTES;
-/// Maximum number of states of a family.
+/// Maximum number of states of a described system.
 const MOST_STATES: usize = limits::SYSTEM_STATES;
 
-/// System file: the system with its product data.
+/// Content of a system file: the described system with its product data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SystemFile {
-    /// Described system.
+    /// Described system with its visible properties.
     pub system: SystemDescription,
-    /// Key for the catalogue; empty: made from the name.
+    /// Key of the product in the catalogue; empty: derived from the name.
     pub key: String,
-    /// Tags to find the product by.
+    /// Tags by which the product is found in the catalogue.
     pub tags: Vec<String>,
-    /// Key of the rule that makes its control curve; empty: none.
+    /// Key of the control rule from which the product's control curve is computed; empty: none.
     pub control: String,
-    /// System with its solar properties; `None` where it has none, and for a stack, whose layers have their own.
+    /// System with the solar properties of its materials; `None` if the file states none, and for a stack, whose layers
+    /// state them separately.
     pub solar: Option<SystemKind>,
-    /// Number of its materials with solar properties, and number of all its materials. Those of a stack are in its
-    /// layers.
+    /// Number of materials with solar properties, and number of all materials of the system; both 0 for a stack, whose
+    /// materials belong to its layers.
     pub materials: [usize; 2],
 }
 
 impl SystemFile {
-    /// Returns the system in a spectral band; with visible properties where the file has no solar ones.
+    /// Returns the system with the properties of a spectral band, visible ones if the file has no solar ones.
     pub fn in_band(&self, band: BandName) -> SystemDescription {
         match (band, &self.solar) {
             (BandName::Solar, Some(kind)) => SystemDescription { kind: kind.clone(), ..self.system.clone() },
@@ -62,7 +63,7 @@ impl SystemFile {
     }
 }
 
-/// Whether the name is that of a system file.
+/// Whether a file name is that of a system file (ends in `.system.toml`).
 pub fn is_system_file(name: &str) -> bool {
     name.to_ascii_lowercase().ends_with(".system.toml")
 }
@@ -106,8 +107,8 @@ pub fn read(bytes: &[u8]) -> Result<SystemFile, FormatError> {
     })
 }
 
-/// Returns the system with its solar properties, and the numbers of materials with such properties and of all
-/// materials.
+/// Returns the system with its solar properties (`None` if it has none), the number of materials with such properties,
+/// and that of all materials.
 fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2]), FormatError> {
     let (table, materials) = solar::keys(text, word)?;
     let Some(table) = table else { return Ok((None, materials)) };
@@ -119,7 +120,7 @@ fn solar_kind(text: &str, word: &str) -> Result<(Option<SystemKind>, [usize; 2])
     Ok((Some(kind), materials))
 }
 
-/// Returns an error if the description in a layer is not valid.
+/// Checks the description that a stack contains for its layer number `k`; returns an error if it is not valid.
 fn layer_is_right(k: usize, layer: &Layer) -> Result<(), FormatError> {
     let LayerSource::Text(text) = &layer.source else { return Ok(()) };
     read(text.as_bytes()).map(drop).map_err(|error| {
@@ -130,8 +131,8 @@ fn layer_is_right(k: usize, layer: &Layer) -> Result<(), FormatError> {
     })
 }
 
-/// Keys of a file, and the functions that read them. One line per family: its kind, the key of its kind and table, the
-/// table's keys, and the function that reads them.
+/// Defines the keys of a system file and the functions that read them. One line per family of systems: its kind, the
+/// key of its kind and table, the table's keys, and the function that reads them.
 macro_rules! families {
     ($($kind:ident $word:literal $table:ident: $keys:ty, $read:path;)*) => {
         #[derive(Debug, Deserialize)]
@@ -153,7 +154,7 @@ macro_rules! families {
             $(#[serde(rename = $word)] $kind,)*
         }
 
-        /// Returns the key and the system of a file's kind.
+        /// Returns the key of a system file's kind, and the system that its table describes.
         fn kind(keys: &Keys) -> Result<(&'static str, SystemKind), FormatError> {
             let word = match keys.kind { $(Kind::$kind => $word,)* };
             let there = [$(($word, keys.$table.is_some()),)*];

@@ -1,4 +1,4 @@
-//! Tables of thin sheets: fabrics, diffusers, perforated and expanded metal.
+//! Tables of thin sheets in a system file: fabrics, diffusers, perforated and expanded metal.
 
 use super::checks::{index, length, share, within, wrong};
 use super::keys::{self, DiffuserModel, HoleShape};

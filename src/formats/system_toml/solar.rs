@@ -1,21 +1,22 @@
-//! Solar properties of materials, beside the visible ones.
+//! Solar properties of materials in a system file, beside the visible ones.
 //!
 //! A table with properties of a material may contain a table `solar` with those that differ for the whole solar
-//! spectrum: `upper = { reflectance = 0.45, solar = { reflectance = 0.6 } }`, `[pane.solar]`. Keys that it omits are
-//! those of visible light, so that an empty one says that all of them hold for both. Geometry is the same in both
-//! bands.
+//! spectrum: `upper = { reflectance = 0.45, solar = { reflectance = 0.6 } }`, `[pane.solar]`. Keys that it omits have
+//! the visible values, so that an empty table means that all properties are the same in both bands. Geometry is always
+//! the same in both.
 
 use super::checks::wrong;
 use crate::formats::location::{FormatError, Location};
 use toml::{Table, Value};
 
-/// Name of the table.
+/// Name of the tables with solar properties.
 const NAME: &str = "solar";
 
-/// Table with properties of a material: its name within the family's table, empty for that itself, and the properties.
+/// Table with the properties of a material: its name within the family's table (empty if it is the family's table
+/// itself), and the keys of the properties.
 type Material = (&'static str, &'static [&'static str]);
 
-/// Returns the materials of a family, by its key; none of a stack, whose layers have their own.
+/// Returns the tables of materials of a family, given by its key; none for a stack.
 fn materials(word: &str) -> &'static [Material] {
     const FACE: &[&str] = &["reflectance", "specular", "roughness"];
     const CLEAR: &[&str] = &["index", "absorption"];
@@ -34,14 +35,14 @@ fn materials(word: &str) -> &'static [Material] {
     }
 }
 
-/// Properties that replace others: a pane is known by its absorption or by its data sheet.
+/// Keys of properties that replace others: a pane is described either by its absorption or by its data sheet.
 const INSTEAD: [(&str, &[&str]); 2] = [
     ("absorption", &["transmittance_normal", "reflectance_normal", "reflectance_normal_back"]),
     ("transmittance_normal", &["absorption"]),
 ];
 
-/// Returns the keys of a file with its solar properties in place of the visible ones, `None` where it has none; also
-/// the number of materials with solar properties and of all materials. `family`: the key of its kind.
+/// Returns the content of a system file with the solar properties in place of the visible ones (`None` if it has none),
+/// the number of materials with solar properties, and that of all materials. `family`: key of the file's kind.
 pub(super) fn keys(text: &str, family: &str) -> Result<(Option<Table>, [usize; 2]), FormatError> {
     // A text that is not TOML was refused before.
     let mut file: Table = toml::from_str(text).unwrap_or_default();
@@ -60,7 +61,7 @@ pub(super) fn keys(text: &str, family: &str) -> Result<(Option<Table>, [usize; 2
     Ok(((given > 0).then_some(file), [given, all]))
 }
 
-/// Replaces visible properties by solar ones.
+/// Replaces the visible properties in a material's table by the solar ones.
 fn put(table: &mut Table, solar: Value, place: &str, properties: &[&str]) -> Result<(), FormatError> {
     let Value::Table(solar) = solar else {
         return wrong(&format!("{place}.{NAME}"), solar.type_str(), "a table, as solar = { reflectance = 0.6 }");
@@ -86,7 +87,7 @@ fn put(table: &mut Table, solar: Value, place: &str, properties: &[&str]) -> Res
     Ok(())
 }
 
-/// Returns an error with its place marked as solar.
+/// Returns the error with its position marked as belonging to solar properties.
 pub(super) fn located(error: FormatError) -> FormatError {
     let element = error.at.element.map_or_else(|| NAME.to_owned(), |inner| format!("{inner} (solar)"));
     FormatError::new(Location::file().in_element(element), error.found, error.expected)

@@ -1,4 +1,4 @@
-//! Tables of clear bodies: panes, laser-cut and prismatic panels, profiles between panes.
+//! Tables of clear bodies in a system file: panes, laser-cut and prismatic panels, profiles between panes.
 
 use super::checks::{absorption, extent, index, length, outline, share, within, wrong};
 use super::keys;

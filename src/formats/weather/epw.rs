@@ -13,7 +13,7 @@ use crate::compute::weather::{Quantity, Record, Station, Weather};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// Fields that are read: numbers from 1, and names.
+/// Fields of an EPW row that are read: number, from 1, and name.
 const NAMES: [(usize, &str); 11] = [
     (1, "field 1 (year)"),
     (2, "field 2 (month)"),
@@ -29,12 +29,12 @@ const NAMES: [(usize, &str); 11] = [
 ];
 const DIRECT: &str = "field 15 (direct normal irradiance)";
 const DIFFUSE: &str = "field 16 (diffuse horizontal irradiance)";
-/// Minimum number of fields of a row.
+/// Minimum number of fields of an EPW row.
 const LEAST_FIELDS: usize = 16;
 /// Maximum number of header lines that are searched for DATA PERIODS.
 const LONGEST_HEADER: usize = 200;
 
-/// Reads an EPW file.
+/// Reads an EPW file from its text.
 pub fn read(text: &str) -> Result<Weather, FormatError> {
     let mut rows = lines(text);
     let mut findings = Vec::new();
@@ -79,10 +79,10 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
     Ok(weather)
 }
 
-/// Header: what the lines before the first row state.
+/// Header of an EPW file: data of the lines before the first row.
 struct Header {
     station: Station,
-    /// Length of the intervals according to the line DATA PERIODS.
+    /// Length of the intervals that the line DATA PERIODS states.
     stated: Stated,
     /// Weekday of the first row, 0 (Monday) … 6 (Sunday).
     first_weekday: Option<u8>,
@@ -117,7 +117,7 @@ fn header<'a>(
     Err(FormatError::new(Location::file(), "no DATA PERIODS line", "eight lines of header before the first row"))
 }
 
-/// Returns the fields of a header's line with their places.
+/// Returns the fields of a header line with their positions; `name`: their name in messages.
 fn header_fields<'a>(text: &'a str, line: usize, name: &'static str) -> Vec<Field<'a>> {
     let mut column = 1;
     let mut fields = Vec::new();
@@ -128,7 +128,8 @@ fn header_fields<'a>(text: &'a str, line: usize, name: &'static str) -> Vec<Fiel
     fields
 }
 
-/// Reads `LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation`.
+/// Reads the station from the header line
+/// `LOCATION,city,state,country,source,WMO,latitude,longitude,time zone,elevation`.
 fn location(text: &str) -> Result<Station, FormatError> {
     let fields = header_fields(text, 1, "LOCATION");
     if fields.len() < 10 {
@@ -162,8 +163,8 @@ fn location(text: &str) -> Result<Station, FormatError> {
     Ok(station)
 }
 
-/// Adds a finding on `HOLIDAYS/DAYLIGHT SAVINGS,leap year observed,start,end,holidays`: the hours of the rows are
-/// standard time nevertheless.
+/// Adds a finding if the header line `HOLIDAYS/DAYLIGHT SAVINGS,leap year observed,start,end,holidays` states a
+/// daylight saving period: the hours of the rows are read as standard time nevertheless.
 fn say_summer_time(text: &str, findings: &mut Vec<Finding>) {
     let fields: Vec<&str> = text.split(',').map(str::trim).collect();
     let dates = fields.get(2..4).unwrap_or_default();
@@ -186,7 +187,7 @@ fn interval(fields: &[Field<'_>], line: usize) -> Result<u16, FormatError> {
     if 60 % records != 0 { Err(field.wrong("a number that divides 60")) } else { Ok(60 / records as u16) }
 }
 
-/// Returns a record whose begin is not known yet, and the label that determines it.
+/// Reads a row: returns its record, whose begin is not known yet, and the hour and minute that determine it.
 fn row(text: &str, line: usize, changed: &mut Changed) -> Result<(Record, Label), FormatError> {
     let mut fields = [Field { text: "", line, column: 0, name: "" }; NAMES.len()];
     let (mut count, mut column, mut next) = (0, 1, 0);

@@ -1,4 +1,4 @@
-//! Fields of lines of numbers with their places, and the limits that all weather formats share.
+//! Fields of a weather file's lines with their positions, and limits of values that all weather formats have in common.
 
 use crate::compute::limits;
 use crate::compute::sky::perez::SOLAR_CONSTANT;
@@ -11,42 +11,42 @@ pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     text.split('\n').enumerate().map(|(k, line)| (k + 1, line.strip_suffix('\r').unwrap_or(line)))
 }
 
-/// Days of the week as files name them, Monday first.
+/// Names of the days of the week in weather files, Monday first.
 pub const WEEKDAYS: [&str; 7] = ["Monday", "Tuesday", "Wednesday", "Thursday", "Friday", "Saturday", "Sunday"];
 
-/// Returns the index of a name in [`WEEKDAYS`].
+/// Returns the day of the week of a name in [`WEEKDAYS`], in any case: 0 (Monday) … 6 (Sunday).
 pub fn weekday(text: &str) -> Option<u8> {
     let named = |name: &&str| text.trim().eq_ignore_ascii_case(name);
     WEEKDAYS.iter().position(named).map(|place| place as u8)
 }
 
-/// Field of a line.
+/// Field of a weather file's line, with its position.
 #[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {
     /// Text of the field.
     pub text: &'a str,
-    /// Number of the field's line, from 1.
+    /// Line number of the field in the file, from 1.
     pub line: usize,
-    /// Column of the field in the line, from 1.
+    /// Column in the line at which the field begins, in characters from 1.
     pub column: usize,
     /// Name of the field, for messages.
     pub name: &'static str,
 }
 
 impl Field<'_> {
-    /// Returns an error at the place of the field.
+    /// Returns the error that the field is not as expected, with its position and text.
     pub fn wrong(&self, expected: impl Into<String>) -> FormatError {
         let at = Location::line_column(self.line, self.column).in_element(self.name);
         FormatError::new(at, format!("\"{}\"", excerpt(self.text)), expected)
     }
 
-    /// Returns the field as a finite number.
+    /// Returns the field as a finite number, or an error.
     pub fn number(&self) -> Result<f64, FormatError> {
         let value = self.text.trim().parse::<f64>().ok().filter(|value| value.is_finite());
         value.ok_or_else(|| self.wrong("a number"))
     }
 
-    /// Returns the field as a finite number between limits.
+    /// Returns the field as a finite number from `min` to `max`, or an error; `unit`: unit in its message.
     pub fn within(&self, min: f64, max: f64, unit: &str) -> Result<f64, FormatError> {
         let value = self.number()?;
         if (min..=max).contains(&value) {
@@ -56,7 +56,7 @@ impl Field<'_> {
         }
     }
 
-    /// Returns the field as a whole number between limits.
+    /// Returns the field as a whole number from `min` to `max`, or an error.
     pub fn integer(&self, min: i32, max: i32) -> Result<i32, FormatError> {
         // 1.0 is written by programs that know no integers.
         let value = self.number()?;
@@ -68,7 +68,9 @@ impl Field<'_> {
     }
 }
 
-/// Sets latitude, longitude (east positive), UTC offset and elevation of a station, checked against their ranges.
+/// Sets latitude, longitude, UTC offset and elevation of a station from four fields in this order, checked against
+/// their ranges. `longitude_sign`: −1 if the file counts west positive; `zone`: UTC offset \[h\] per unit of the file's
+/// time zone.
 pub fn place(station: &mut Station, fields: [Field<'_>; 4], longitude_sign: f64, zone: f64) -> Result<(), FormatError> {
     let [latitude, longitude, time_zone, elevation] = fields;
     station.latitude = latitude.within(-90.0, 90.0, "° (north positive)")?;
@@ -81,7 +83,8 @@ pub fn place(station: &mut Station, fields: [Field<'_>; 4], longitude_sign: f64,
     Ok(())
 }
 
-/// Returns a day of the calendar; years outside 1900 to 2100 become 2001, or 2004 for a leap day.
+/// Returns the day of the calendar that the fields state; a year outside 1900 to 2100 is replaced by 2001, or by 2004
+/// for a leap day.
 pub fn day(year: i32, month: &Field<'_>, day: &Field<'_>) -> Result<Day, FormatError> {
     let (m, d) = (month.integer(1, 12)?, day.integer(1, 31)?);
     let year = if (1900..=2100).contains(&year) {
@@ -94,21 +97,22 @@ pub fn day(year: i32, month: &Field<'_>, day: &Field<'_>) -> Result<Day, FormatE
     Day::new(year as i16, m as u8, d as u8).ok_or_else(|| day.wrong(format!("a day that month {m} has")))
 }
 
-/// Lowest irradiance below 0 that is accepted; it is read as 0. \[W/m²\]
+/// Lowest negative irradiance that is accepted; it is read as 0. \[W/m²\]
 const LEAST: f64 = -1.0;
 /// Maximum diffuse irradiance of any sky. \[W/m²\]
 const MOST_DIFFUSE: f64 = 1000.0;
 
-/// Counts of values that were changed while reading.
+/// Counts of values that the reader of a weather file changed.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Changed {
-    /// Number of irradiances a little below 0 that became 0.
+    /// Number of slightly negative irradiances that were set to 0.
     pub negative: usize,
-    /// Number of impossible years.
+    /// Number of impossible years that were replaced.
     pub years: usize,
 }
 
-/// Returns an irradiance within the range of sun or sky; values slightly below 0 become 0. \[W/m²\]
+/// Returns the irradiance of a field after a check against its range, −1 W/m² to `most`; negative values are set to 0.
+/// \[W/m²\]
 fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> Result<f64, FormatError> {
     if !(LEAST..=most).contains(&value) {
         return Err(field.wrong(format!("0 to {most:.0} W/m²")));
@@ -118,22 +122,24 @@ fn limited(value: f64, field: &Field<'_>, most: f64, changed: &mut Changed) -> R
     Ok(value.max(0.0) + 0.0)
 }
 
-/// Returns the direct irradiance: at most a tenth more than the extraterrestrial irradiance of that day. \[W/m²\]
+/// Returns the direct irradiance of a field after a check: at most 10 % above the extraterrestrial irradiance of that
+/// day. \[W/m²\]
 pub fn direct(value: f64, field: &Field<'_>, day: Day, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, 1.1 * SOLAR_CONSTANT * day.eccentricity(), changed)
 }
 
-/// Returns the diffuse irradiance. \[W/m²\]
+/// Returns the diffuse irradiance of a field after a check against its range. \[W/m²\]
 pub fn diffuse(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, MOST_DIFFUSE, changed)
 }
 
-/// Returns the global irradiance: bright clouds around the sun may send more than the sun alone. \[W/m²\]
+/// Returns the global irradiance of a field after a check against its range, which exceeds that of the sun alone
+/// because bright clouds around it add to it. \[W/m²\]
 pub fn global(value: f64, field: &Field<'_>, changed: &mut Changed) -> Result<f64, FormatError> {
     limited(value, field, 2000.0, changed)
 }
 
-/// Returns an error if there are no records or more than the limit.
+/// Checks the number of records of a weather file; returns an error if there are none or more than the limit.
 pub fn check_count(records: &[Record], at: Location) -> Result<(), FormatError> {
     if records.is_empty() {
         return Err(FormatError::new(at, "no rows of data", "a row for every interval"));

@@ -1,4 +1,4 @@
-//! Intervals that the hours and minutes of EPW rows name.
+//! Time intervals that the hours and minutes of EPW rows mean.
 //!
 //! The EPW dictionary defines the minute as that at which the interval ends, and programs write the one at which it
 //! begins as well: 10 to 60 or 0 to 50. The rows decide which, since they follow each other without gaps; where both
@@ -10,37 +10,39 @@ use crate::compute::btdf::Finding;
 use crate::compute::weather::{Record, Weather};
 use crate::formats::{FormatError, Location};
 
-/// Hour and minute of a row.
+/// Hour and minute of an EPW row, from which its interval is determined.
 #[derive(Debug, Clone, Copy)]
 pub struct Label {
-    /// Hour, 1 … 24, or 0 … 23.
+    /// Hour of the row, 1 … 24, or 0 … 23.
     pub hour: u8,
-    /// Minute, 0 … 60; `None` where the field is no such number.
+    /// Minute of the row, 0 … 60; `None` if the field is not such a number.
     pub minute: Option<u8>,
-    /// Column of the minute, from 1.
+    /// Column of the minute in the line, in characters from 1.
     pub column: u16,
 }
 
-/// Length of the intervals as the header states it.
+/// Length of the intervals that the header of an EPW file states.
 #[derive(Debug, Clone, Copy)]
 pub struct Stated {
-    /// Length of the intervals, which divides an hour. \[min\]
+    /// Length of the intervals, a divisor of an hour. \[min\]
     pub interval: u16,
     /// Number of the line DATA PERIODS, from 1.
     pub line: usize,
 }
 
-/// Difference in closure by which the sun distinguishes begin from end. \[W/m²\]
+/// Difference in the rms residual of global − diffuse − direct · sin h from which the sun's position decides whether
+/// minutes mark the begin or the end of intervals. \[W/m²\]
 const CLEARLY: f64 = 5.0;
 /// Name of the hour in messages.
 const HOUR: &str = "field 4 (hour)";
 /// Name of the minute in messages.
 const MINUTE: &str = "field 5 (minute)";
 
-/// Sets the length of the intervals and where each begins.
+/// Sets the length of a weather file's intervals and the begin of each record's interval, from the hours and minutes of
+/// the rows.
 ///
 /// # Errors
-/// Returns an error if a minute is not that of an interval, if rows are apart by what does not divide an hour, or if an
+/// Returns an error if a minute is not that of an interval, if the distance of rows does not divide an hour, or if an
 /// hour 0 is not the first of a day.
 pub fn place_intervals(weather: &mut Weather, labels: &mut [Label], stated: Stated) -> Result<(), FormatError> {
     let is_from_zero = count_from_one(&weather.records, labels)?;
@@ -63,7 +65,7 @@ pub fn place_intervals(weather: &mut Weather, labels: &mut [Label], stated: Stat
     Ok(())
 }
 
-/// Counts hours from 1 where rows count them from 0; returns whether they do.
+/// Converts hours that count from 0 to 23 to 1 … 24; returns whether the file's hours count from 0.
 fn count_from_one(records: &[Record], labels: &mut [Label]) -> Result<bool, FormatError> {
     if labels.iter().all(|label| label.hour > 0) {
         return Ok(false);
@@ -80,12 +82,12 @@ fn count_from_one(records: &[Record], labels: &mut [Label]) -> Result<bool, Form
     Ok(true)
 }
 
-/// Moves all intervals by `seconds`.
+/// Shifts the intervals of all records by `seconds`.
 fn shift(weather: &mut Weather, seconds: i32) {
     weather.records.iter_mut().for_each(|record| record.start += seconds);
 }
 
-/// Sets the length of the intervals and where each begins, for hours that count from 1.
+/// Sets the length of the intervals and the begin of each, for hours that count from 1.
 fn place_in_hours(weather: &mut Weather, labels: &[Label], stated: Stated) -> Result<(), FormatError> {
     let interval = interval(weather, labels, stated)?;
     weather.interval = interval;
@@ -142,7 +144,7 @@ fn place_in_hours(weather: &mut Weather, labels: &[Label], stated: Stated) -> Re
     Ok(())
 }
 
-/// Returns the length of the intervals by the rows where their minutes agree, else by the header. \[min\]
+/// Returns the length of the intervals: by the minutes of the rows if these agree, else by the header. \[min\]
 fn interval(weather: &Weather, labels: &[Label], stated: Stated) -> Result<u16, FormatError> {
     let minutes = || labels.iter().filter_map(|label| label.minute);
     let distances = distances(&weather.records, labels);
@@ -166,8 +168,8 @@ fn interval(weather: &Weather, labels: &[Label], stated: Stated) -> Result<u16, 
     Err(FormatError::new(Location::line(stated.line).in_element("DATA PERIODS, records per hour"), found, expected))
 }
 
-/// Returns how often two rows that follow each other within an hour are 1 … 60 min apart, by minutes; the hour ends
-/// with minute 60 or 0.
+/// Returns for each distance from 1 to 60 min how many pairs of successive rows within an hour have it, indexed by the
+/// distance; the hour ends with minute 60 or 0.
 fn distances(records: &[Record], labels: &[Label]) -> [usize; 61] {
     let mut counts = [0; 61];
     for (pair, records) in labels.windows(2).zip(records.windows(2)) {
@@ -180,7 +182,7 @@ fn distances(records: &[Record], labels: &[Label]) -> [usize; 61] {
     counts
 }
 
-/// Sets where each interval begins; `begin`: in seconds of the hour.
+/// Sets the begin of each record's interval; `begin` returns it in seconds after the full hour before it.
 fn set(weather: &mut Weather, labels: &[Label], begin: impl Fn(&Label) -> i32) {
     for (record, label) in weather.records.iter_mut().zip(labels) {
         record.start = 3600 * (i32::from(label.hour) - 1) + begin(label);
@@ -193,7 +195,8 @@ fn breaks(weather: &Weather) -> usize {
     weather.records.windows(2).filter(|pair| pair[0].seconds_to(&pair[1]) != length).count()
 }
 
-/// Returns what global − diffuse − direct · sin h leaves; `None` where nothing tells. \[W/m²\]
+/// Returns the rms residual of global − diffuse − direct · sin h; `None` if the file does not allow to compute it.
+/// \[W/m²\]
 fn rms(weather: &Weather) -> Option<f64> {
     weather.closure().ok().flatten().map(|closure| closure.rms)
 }

@@ -23,7 +23,8 @@ pub fn is_weather_file(name: &str) -> bool {
     [".epw", ".wea", table::EXTENSION].iter().any(|end| name.ends_with(end))
 }
 
-/// Returns the extension of the weather format that a text's first word identifies.
+/// Returns the file name extension of the weather format that the first word of a text identifies; `None` for other
+/// texts.
 pub fn extension_of(text: &str) -> Option<&'static str> {
     let words = [(table::MAGIC, table::EXTENSION), ("LOCATION", ".epw"), ("place", ".wea")];
     words.iter().find(|(word, _)| text.starts_with(word)).map(|(_, extension)| *extension)
@@ -33,7 +34,7 @@ pub fn extension_of(text: &str) -> Option<&'static str> {
 /// Windows-1252, with any line ends.
 ///
 /// # Errors
-/// Returns an error with line and column, what was found and what was expected.
+/// Returns an error with line, column, what was found and what was expected if the file is not valid.
 pub fn read(name: &str, bytes: &[u8]) -> Result<Weather, FormatError> {
     // The mark of UTF-8 may stand before text of one byte a character.
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);

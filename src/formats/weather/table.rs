@@ -1,4 +1,4 @@
-//! Compact tables of a year (`cfs-weather 1`): what a computation of light needs, and nothing else.
+//! Compact tables of a weather year (`cfs-weather 1`), with only the data that a computation of light needs.
 //!
 //! ```text
 //! cfs-weather 1
@@ -14,10 +14,9 @@
 //! closure = 26.7 1.8         W/m², of the source's own irradiances, without and with that clock
 //! first_weekday = Sunday     of the first day: weekdays of a year that is spliced of several
 //!
-//! 1958-01-01                 a day of 24 hours, each row's own year
-//! 8,12,41,6.7                interval that ends at hour 8: direct normal, diffuse horizontal W/m², dew point °C
-//! ```
-//! Hours that are not listed are dark: nothing else is left out of a day. An empty dew point is not known.
+//! 1958-01-01                 a day of 24 hours, each row's own year 8,12,41,6.7                interval that ends at
+//! hour 8: direct normal, diffuse horizontal W/m², dew point °C ``` Hours that are not listed are dark. An empty dew
+//! point is unknown.
 
 use super::fields::{Changed, Field, WEEKDAYS, check_count, day, diffuse, direct, lines, place, weekday};
 use crate::compute::limits;
@@ -28,7 +27,7 @@ use std::fmt::Write as _;
 
 /// First words of a table.
 pub const MAGIC: &str = "cfs-weather 1";
-/// Ending of the file names of tables.
+/// Ending of the file names of compact weather tables.
 pub const EXTENSION: &str = ".weather.txt";
 
 const KEYS: [&str; 11] = [
@@ -47,10 +46,10 @@ const KEYS: [&str; 11] = [
 const DIRECT: &str = "value 2 (direct normal irradiance)";
 const DIFFUSE: &str = "value 3 (diffuse horizontal irradiance)";
 
-/// Reads a table.
+/// Reads a compact weather table from its text.
 ///
 /// # Errors
-/// Returns an error with line and column, what was found and what was expected.
+/// Returns an error with line, column, what was found and what was expected if the table is not valid.
 pub fn read(text: &str) -> Result<Weather, FormatError> {
     let mut rows = lines(text).map(|(number, line)| (number, line.trim()));
     // The magic word.
@@ -177,11 +176,11 @@ fn hour(fields: &[Field<'_>], day: &mut [Record], changed: &mut Changed) -> Resu
     Ok(())
 }
 
-/// Writes whole days of hours as a table.
+/// Returns the compact table of a weather file of hourly records in whole days.
 ///
 /// # Errors
-/// Returns an error if the records are not hours or not whole days of them, if irradiances are missing where there is
-/// light, or if a day has a gap.
+/// Returns an error if the records are not hours or not whole days of them, if irradiances are missing by day, or if a
+/// day has a gap.
 pub fn write(weather: &Weather) -> Result<String, FormatError> {
     let refuse = |record: &Record, found: &str, expected: &str| {
         Err(FormatError::new(Location::line(record.line as usize), found, expected))

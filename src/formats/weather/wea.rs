@@ -12,7 +12,7 @@ use crate::compute::weather::{Quantity, Record, Station, Weather};
 use crate::formats::location::excerpt;
 use crate::formats::{FormatError, Location};
 
-/// Words of the header, in order.
+/// Keys of the header, in their order.
 const KEYS: [&str; 6] = ["place", "latitude", "longitude", "time_zone", "site_elevation", "weather_data_file_units"];
 const UNITS: [(Quantity, [&str; 2]); 3] = [
     (Quantity::NormalIrradiance, ["column 4 (direct normal irradiance)", "column 5 (diffuse horizontal irradiance)"]),
@@ -27,37 +27,38 @@ const UNITS: [(Quantity, [&str; 2]); 3] = [
 ];
 /// Name of the hour in messages.
 const HOUR: &str = "column 3 (hour)";
-/// Maximum illuminance of any sun or sky. \[lx\]
+/// Maximum illuminance by sun or sky that is accepted. \[lx\]
 const MOST_LIGHT: f64 = 200_000.0;
 
-/// Range of hours from midnight that belong to a day: a day may be written half an hour late. \[h\]
+/// Range of hours after midnight that belong to a day; a file may write a day's hours half an hour late. \[h\]
 const HOURS: std::ops::Range<f64> = 0.0..25.0;
-/// Number of rows among which one pair may have the same time and different light: a row that was written twice.
+/// Number of rows for each of which one pair of rows with the same time and different light is tolerated (a row that
+/// was written twice).
 const STRAY: usize = 1000;
-/// Number of days by which a date must go back to begin the next year.
+/// Number of days by which a row's date must lie before that of the previous row to belong to the next year.
 const HALF_A_YEAR: i32 = 182;
 /// Length of a day. \[s\]
 const DAY: i64 = 86_400;
 
-/// Row of a file before the length of the intervals is known.
+/// Row of a WEA file, before the length of the intervals is known.
 struct Row {
     record: Record,
-    /// Middle of the interval, from the midnight of the record's day. \[s\]
+    /// Middle of the interval, as time after the midnight with which the record's day begins. \[s\]
     middle: f64,
-    /// Half a unit of the last digit of the hour. \[s\]
+    /// Maximum rounding error of the hour: half a unit of its last digit. \[s\]
     rounding: f64,
-    /// Column of the hour, from 1.
+    /// Column of the hour in the line, in characters from 1.
     column: usize,
 }
 
 impl Row {
-    /// Returns the time from the midnight of 1 January 1970 to the middle. \[s\]
+    /// Returns the time from the begin of 1 January 1970 to the middle of the interval, in local standard time. \[s\]
     fn moment(&self) -> f64 {
         (DAY * self.record.day.number()) as f64 + self.middle
     }
 
-    /// Returns the second that the hour means: of what rounds to its digits a half or whole interval, or a minute.
-    /// \[s\]
+    /// Returns the time after midnight that the rounded hour most probably means: of all times that round to its
+    /// digits, one at a half or whole interval, else a full minute. \[s\]
     fn second(&self, interval: u16) -> i64 {
         let near = |unit: f64| unit * (self.middle / unit).round();
         let units = [30.0 * f64::from(interval), 60.0];
@@ -65,7 +66,7 @@ impl Row {
         meant.unwrap_or(self.middle).round() as i64
     }
 
-    /// Returns the record with its begin, on the day that holds its middle.
+    /// Returns the record with the begin of its interval, assigned to the day that contains the middle.
     fn placed(self, interval: u16) -> Record {
         let second = self.second(interval);
         let record = self.record;
@@ -74,7 +75,7 @@ impl Row {
     }
 }
 
-/// Reads a WEA file.
+/// Reads a WEA file from its text.
 pub fn read(text: &str) -> Result<Weather, FormatError> {
     let mut lines = lines(text).filter(|(_, line)| !line.trim_ascii().is_empty());
     let (station, unit) = header(&mut lines)?;
@@ -113,7 +114,7 @@ pub fn read(text: &str) -> Result<Weather, FormatError> {
     })
 }
 
-/// Reads the header. Returns the station and the index of the unit.
+/// Reads the header of a WEA file. Returns the station and the index of the unit in the list of units.
 fn header<'a>(lines: &mut impl Iterator<Item = (usize, &'a str)>) -> Result<(Station, usize), FormatError> {
     let mut texts: Vec<(usize, String)> = Vec::with_capacity(KEYS.len());
     for key in KEYS {
@@ -188,7 +189,8 @@ fn row(
     Ok(Row { record, middle: 3600.0 * time, rounding, column: hour.column })
 }
 
-/// Sets the years of rows, which the format lacks: a date that goes back by half a year begins the next one.
+/// Sets the years of the rows, which the format lacks: a date that lies half a year before the previous one belongs to
+/// the next year.
 fn set_years(rows: &mut [Row]) {
     let (mut turns, mut before, mut leap) = (0_i16, None, None);
     for row in rows.iter_mut() {
@@ -210,7 +212,8 @@ fn set_years(rows: &mut [Row]) {
     }
 }
 
-/// Returns an error if successive rows have one time with different light, or repeatedly: their times are lost.
+/// Checks that successive rows have different times; returns an error if rows with the same time have different light,
+/// or if they occur repeatedly.
 fn check_times(rows: &[Row]) -> Result<(), FormatError> {
     let equal = || rows.windows(2).filter(|pair| pair[0].moment() == pair[1].moment());
     let light = |row: &Row| (row.record.direct, row.record.diffuse);
@@ -231,8 +234,8 @@ fn check_times(rows: &[Row]) -> Result<(), FormatError> {
     }
 }
 
-/// Returns the shortest distance of two rows, at most an hour, and an hour for a single row; where other distances are
-/// not multiples of it, the largest part of an hour within it. \[min\]
+/// Returns the length of the intervals: the shortest distance between two rows, at most an hour; an hour for a single
+/// row. If other distances are not multiples of it, the largest divisor of an hour that is not longer. \[min\]
 fn interval(rows: &[Row]) -> u16 {
     let steps = || {
         let minutes = rows.windows(2).map(|pair| ((pair[1].moment() - pair[0].moment()) / 60.0).round());

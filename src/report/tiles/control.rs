@@ -15,7 +15,7 @@ fn colour(states: usize, index: usize) -> Rgb {
     ColourMap::Sequential.rgb(index as f32 / (states.max(2) - 1) as f32)
 }
 
-/// Returns a text such as "state 45 (slat angle 45°)".
+/// Returns the state with the given index as text, e.g. "state 45 (slat angle 45°)".
 fn state(control: &Controlled, index: usize) -> String {
     let (quantity, unit) = control.quantity.split_once(" / ").unwrap_or((control.quantity, ""));
     control.states.get(index).map_or_else(String::new, |(key, value)| {
@@ -95,7 +95,7 @@ fn curve(drawing: &mut Drawing, frame: Frame, control: &Controlled, inks: &Inks)
     }
 }
 
-/// Draws one column per day, noon in the middle, with the colour of its state for every hour.
+/// Draws the map of the year: one column per day, noon in the middle, every hour in the colour of its state.
 fn hours(
     drawing: &mut Drawing,
     frame: Frame,

@@ -1,4 +1,4 @@
-//! Hemispheres of the BTDF, and τ over the incident hemisphere with the sun's paths.
+//! Hemispheres of the BTDF tile, and τ over the incident hemisphere with sun paths.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Indicatrix, Scattered};
@@ -21,10 +21,10 @@ use crate::texts::words::MONTHS;
 use crate::texts::{export as texts, fixed};
 
 const PROJECTION: Projection = Projection::ProjectedSolidAngle;
-/// Space around a disk for the texts at its rim.
+/// Space around a disk for the texts at its rim. \[drawing units\]
 const RIM: f64 = 19.0;
 
-/// Returns the places of a disk, of the legend under it, and of the caption between them.
+/// Returns the positions in a frame of the disk, of the legend under it, and of the caption between them.
 fn places(frame: Frame) -> (Round, Frame, Point) {
     let [above, below] = frame.cut_bottom(legend::HEIGHT);
     let [disk, caption] = above.cut_bottom(20.0);
@@ -45,8 +45,8 @@ fn mark(drawing: &mut Drawing, round: &Round, incidence: &Incidence, sun: Option
     }
 }
 
-/// Draws the light distribution for one incident direction, with a caption and, where they are given, the maximum and
-/// the decades of the scale.
+/// Draws the light distribution for one incident direction over the emergent hemisphere, with a caption. `range`:
+/// maximum \[1/sr\] and number of decades of the logarithmic colour scale; `None`: from the data.
 pub fn indicatrix(
     drawing: &mut Drawing,
     frame: Frame,
@@ -118,7 +118,7 @@ pub(super) fn btdf(
     Ok(of_incidence(btdf, &subject.incidence))
 }
 
-/// Draws thin lines between cells, while they are large enough to be distinguished.
+/// Draws thin lines between the cells of a basis, if these are large enough to be distinguished.
 fn outlines(drawing: &mut Drawing, round: &Round, basis: &RingBasis, inks: &Inks) {
     if basis.len() > 400 {
         return;
@@ -131,7 +131,8 @@ fn outlines(drawing: &mut Drawing, round: &Round, basis: &RingBasis, inks: &Inks
     }
 }
 
-/// Returns a text such as "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41 (scattered 0.35, regular 0.06)".
+/// Returns an incident direction and its transmittance as text, e.g. "sun at θ 49°, φ 98°, profile angle 49° · τ 0.41
+/// (scattered 0.35, regular 0.06)".
 pub(super) fn of_incidence(btdf: &Btdf, incidence: &Incidence) -> String {
     let incident = incidence.direction;
     let tau = btdf.tau(incident);
@@ -186,7 +187,7 @@ pub(super) fn transmittance(
     Ok(format!("{}. {}", of_incidence(btdf, &subject.incidence), split.sentence()))
 }
 
-/// Draws the sun's paths on the 21st of each month, with hours and the names of three.
+/// Draws the sun paths of the 21st of each month on the disk, with hours and the names of three months.
 fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
     let mut names: Vec<(Frame, Point, String)> = Vec::new();
     let mut name = |at: Point, text: String| {
@@ -234,7 +235,7 @@ fn paths(drawing: &mut Drawing, round: &Round, subject: &Subject, inks: &Inks) {
     }
 }
 
-/// Draws the shares of the light of one incident direction by where it leaves, as a vertical bar.
+/// Draws the shares of the light of one incident direction, by the directions in which it leaves, as a vertical bar.
 fn bar(drawing: &mut Drawing, frame: Frame, split: &FluxSplit, incidence: &Incidence, inks: &Inks) {
     let line = LEADING * TEXT;
     let words = |drawing: &mut Drawing, y: f64, text: &str, colour| {

@@ -1,4 +1,4 @@
-//! LID tile: the aperture as a luminaire in polar diagrams, nadir down.
+//! LID tile: luminous intensity distribution of the aperture in polar diagrams, with the nadir at the bottom.
 
 use crate::compute::direction::Surface;
 use crate::compute::lid::Lid;
@@ -13,12 +13,12 @@ use crate::study::subject::Subject;
 use crate::texts::export as texts;
 use std::f64::consts::{PI, TAU};
 
-/// Space for the angles around the rim.
+/// Space for the texts of the angles around the rim of a diagram. \[drawing units\]
 const RIM: f64 = 27.0;
-/// Minimum strength of a beam that is drawn, relative to the strongest.
+/// Minimum intensity of a beam that is drawn, relative to the strongest.
 const FAINT_BEAM: f64 = 0.02;
 
-/// Axes of a polar diagram.
+/// Axes of a polar diagram: centre, radius and scale.
 struct Polar {
     centre: Point,
     radius: f64,
@@ -31,7 +31,7 @@ impl Polar {
         Self { centre: frame.centre(), radius, max: ticks::fine_ceil(max) }
     }
 
-    /// Returns the place of a value at an angle from the nadir towards the right. \[rad\]
+    /// Returns the point of the drawing for a value at an angle from the nadir towards the right \[rad\].
     fn place(&self, angle: f64, value: f64) -> Point {
         let r = (value / self.max).clamp(0.0, 1.05) * self.radius;
         [self.centre[0] + r * angle.sin(), self.centre[1] + r * angle.cos()]
@@ -56,14 +56,14 @@ impl Polar {
         }
     }
 
-    /// Returns the closed curve of samples over a whole turn.
+    /// Returns the closed curve of values at equal angular steps over a whole turn.
     fn curve(&self, samples: &[f64]) -> Vec<Point> {
         let n = samples.len();
         (0..=n).map(|k| self.place(TAU * k as f64 / n as f64, samples[k % n].max(0.0))).collect()
     }
 }
 
-/// Returns a text such as "C 12°, γ 80°".
+/// Returns the angles C and γ \[rad\] as text, e.g. "C 12°, γ 80°".
 fn angles(c: f64, gamma: f64) -> String {
     format!("C {:.0}°, γ {:.0}°", c.to_degrees().round() % 360.0, gamma.to_degrees())
 }
@@ -147,7 +147,7 @@ fn beams(drawing: &mut Drawing, axes: &Polar, lid: &Lid, inks: &Inks) {
     }
 }
 
-/// Returns flux and peaks as a text.
+/// Returns the luminous flux and the peak intensities as text.
 fn figures(lid: &Lid, peaks: &Peaks, scattered: f64, error: f64) -> String {
     let flux = match error {
         error if error > 0.0 => format!("{} ± {}", si(scattered, "lm"), si(error, "lm")),

@@ -1,4 +1,4 @@
-//! Tiles of the tile area on paper, each drawn into a frame.
+//! Tiles of the window drawn on paper, each into a frame.
 
 mod choose;
 mod control;
@@ -20,33 +20,33 @@ use crate::study::subject::{Subject, Wanted};
 use crate::texts::{Text, export as texts};
 use std::str::FromStr;
 
-/// Kind of a tile.
+/// Kind of a tile of the window, for pictures and reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub enum TileKind {
-    /// BTDF: one incident direction and the distribution of its light.
+    /// BTDF: light distribution for one incident direction.
     Btdf,
-    /// τ over the incident hemisphere.
+    /// Direct-hemispherical transmittance τ over the incident hemisphere.
     Transmittance,
-    /// Sky dome.
+    /// Luminance of the sky dome.
     Sky,
-    /// LID: the aperture as a luminaire.
+    /// LID: luminous intensity distribution of the aperture as a luminaire.
     Lid,
     /// Illuminances in the room.
     Room,
-    /// States over profile angle and year.
+    /// Shading control: states over profile angle and over the year.
     Control,
-    /// Hours of a year.
+    /// Annual simulation: map of the hours of a year, or lighting energy.
     Year,
     /// Ranking of products.
     Choose,
 }
 
 impl TileKind {
-    /// All kinds, in the order of the tile area.
+    /// All kinds of tiles, in the order of the window.
     pub const ALL: [Self; 8] =
         [Self::Btdf, Self::Transmittance, Self::Sky, Self::Lid, Self::Room, Self::Control, Self::Year, Self::Choose];
 
-    /// Returns the key by which the window stores the tile; it does not change with the labels.
+    /// Returns the key of the tile in saved layouts of the window; it does not change with the labels.
     pub const fn title(self) -> &'static str {
         match self {
             Self::Btdf => "BTDF",
@@ -60,7 +60,7 @@ impl TileKind {
         }
     }
 
-    /// Returns the translated title.
+    /// Returns the translated title of the tile.
     pub const fn words(self) -> Text {
         match self {
             Self::Btdf => texts::TILE_BTDF,
@@ -74,7 +74,7 @@ impl TileKind {
         }
     }
 
-    /// Returns the key on the command line and in file names.
+    /// Returns the key of the tile on the command line and in file names.
     pub const fn word(self) -> &'static str {
         match self {
             Self::Btdf => "btdf",
@@ -88,12 +88,12 @@ impl TileKind {
         }
     }
 
-    /// Returns the tile of a title.
+    /// Returns the tile with the key `title` in saved layouts, see [`Self::title`]; `None` for other keys.
     pub fn titled(title: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.title() == title)
     }
 
-    /// Returns the computations that the tile needs.
+    /// Returns the computations whose results the tile shows.
     pub const fn needs(self) -> Wanted {
         Wanted {
             lid: matches!(self, Self::Lid | Self::Sky),
@@ -116,7 +116,7 @@ impl FromStr for TileKind {
     }
 }
 
-/// Draws a tile. Returns its summary in a line.
+/// Draws a tile with the results of `subject` into a frame. Returns its summary as a line of text.
 pub(super) fn draw(
     drawing: &mut Drawing,
     frame: Frame,
@@ -127,7 +127,8 @@ pub(super) fn draw(
     draw_on(drawing, frame, subject, (tile, None), inks)
 }
 
-/// Draws a tile on a scale shared with others, with its lowest and highest value as [`scale_of`] returns them.
+/// Draws a tile on a colour scale that it has in common with other tiles; `range`: lowest and highest value as
+/// [`scale_of`] returns them.
 pub(super) fn draw_on(
     drawing: &mut Drawing,
     frame: Frame,
@@ -148,7 +149,8 @@ pub(super) fn draw_on(
     .map_err(|why| ReportError::Nothing(tile.words(), why))
 }
 
-/// Returns the scale of a tile that covers all subjects; `None` where it is fixed, or where there is no light.
+/// Returns the lowest and highest value of a tile over all subjects, for a common colour scale; `None` where the scale
+/// is fixed, or where there is no light.
 pub(super) fn scale_of<'a>(tile: TileKind, subjects: impl Iterator<Item = &'a Subject>) -> Range {
     match tile {
         TileKind::Btdf => scales::of_q(subjects.filter_map(|one| Some((one.transmission()?, one.incidence.direction)))),

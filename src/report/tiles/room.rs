@@ -1,5 +1,5 @@
-//! Room tile: illuminance on the work plane as a plan in false colour with iso-lux lines, and a section along the
-//! depth.
+//! Room tile: illuminance on the work plane as a floor plan in false colours with iso-lux lines, and as a section along
+//! the depth.
 
 use crate::drawing::chart;
 use crate::drawing::colours::{ColourMap, ColourScale, Inks, contrast};
@@ -15,15 +15,15 @@ use crate::study::scene_words::error_words;
 use crate::study::subject::Subject;
 use crate::texts::export as texts;
 
-/// Floor plan on paper: depth to the right, x downwards (seen from above), the façade at the left.
+/// Floor plan on paper, seen from above: depth to the right, the room's x axis downwards, façade at the left.
 pub(crate) struct Plan {
-    /// Frame of the room.
+    /// Frame of the room in the drawing.
     pub area: Frame,
     scale: f64,
 }
 
 impl Plan {
-    /// Creates the largest plan in the middle of a frame.
+    /// Creates the largest floor plan of a room of the given width and depth \[m\] in the middle of a frame.
     pub fn within(frame: Frame, [width, depth]: [f64; 2]) -> Self {
         let scale = (frame.width / depth).min(frame.height / width).max(1e-3);
         let [across, down] = [depth * scale, width * scale];
@@ -35,14 +35,15 @@ impl Plan {
         [self.area.left + y * self.scale, self.area.top + x * self.scale]
     }
 
-    /// Returns the frame of a sensor's cell, by its column and row and their steps. \[m\]
+    /// Returns the frame in the drawing of the cell around a sensor point, given by the point's column and row and the
+    /// steps between points \[m\].
     pub fn cell(&self, [i, j]: [usize; 2], step: [f64; 2]) -> Frame {
         let [left, top] = self.place(i as f64 * step[0], j as f64 * step[1]);
         Frame::new(left, top, step[1] * self.scale, step[0] * self.scale)
     }
 }
 
-/// Returns mean, extremes and error as a text.
+/// Returns mean, minimum and maximum illuminance with their uncertainty as text.
 pub fn figures(sensors: &[SensorResult]) -> String {
     let totals = || sensors.iter().map(SensorResult::total);
     let values = || totals().map(|total| total.value);
@@ -141,7 +142,8 @@ fn openings(drawing: &mut Drawing, file: &SceneFile, plan: &Plan, inks: &Inks) {
     }
 }
 
-/// Writes a line's level on it where nothing else stands. Returns `false` where there is no such place.
+/// Writes the level of an iso-lux line \[lx\] on it where nothing else is drawn. Returns `false` if there is no free
+/// place.
 fn name(
     drawing: &mut Drawing,
     points: &[Point],
@@ -175,7 +177,7 @@ fn name(
     false
 }
 
-/// Draws a scale bar of whole metres in the deep corner. Returns its frame.
+/// Draws a scale bar of whole metres in a corner of the plan, far from the façade. Returns its frame.
 fn scale_bar(drawing: &mut Drawing, plan: &Plan) -> Frame {
     let metres = [10.0, 5.0, 2.0].into_iter().find(|m| m * plan.scale < 0.3 * plan.area.width).unwrap_or(1.0);
     let text = format!("{metres} m");

@@ -5,10 +5,10 @@ use crate::drawing::colours::Inks;
 use crate::drawing::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::texts::{decimal, export as texts};
 
-/// Number of periods that are drawn.
+/// Number of periods of the system (e.g. slats) that are drawn.
 const PERIODS: usize = 3;
 
-/// Draws the section of a state. Returns `false` where it has none.
+/// Draws the vertical section of a described system in one state. Returns `false` if the system has no section.
 pub fn section(drawing: &mut Drawing, frame: Frame, system: &SystemDescription, state: &str, inks: &Inks) -> bool {
     let family = system.family();
     let one = family.drawing(state);

@@ -1,4 +1,4 @@
-//! Sky tile: the dome as the façade sees it, and a section through the sun.
+//! Sky tile: luminances of the dome as seen from the façade, and a section through the sun.
 
 use crate::compute::angle::{Bearing, wrap_two_pi};
 use crate::compute::direction::Dir;
@@ -14,7 +14,7 @@ use crate::study::subject::Subject;
 use crate::texts::{export as texts, fixed, words};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Returns altitude and bearing of the middles of small pieces of the dome. \[rad\]
+/// Returns altitude and bearing of the centres of small pieces of the dome. \[rad\]
 fn pieces() -> impl Iterator<Item = (f64, f64)> {
     (0..18)
         .flat_map(|row| (0..72).map(move |column| (f64::from(row), f64::from(column))))
@@ -100,7 +100,7 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range:
     figures(subject, place)
 }
 
-/// Returns sun and illuminances as a text.
+/// Returns position of the sun and illuminances as text.
 fn figures(subject: &Subject, place: Option<(f64, f64)>) -> String {
     let scene = &subject.scene;
     let mut parts = vec![place.map_or_else(

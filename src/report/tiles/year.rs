@@ -1,4 +1,4 @@
-//! Year tile: its hours as a map, or electric lighting over a sunny day and by month.
+//! Year tile: map of the hours of a year, or energy for electric lighting over a sunny day and by month.
 
 use crate::drawing::chart;
 use crate::drawing::colours::Inks;

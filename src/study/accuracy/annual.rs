@@ -1,4 +1,5 @@
-//! Error against run time of an annual simulation: the same year with rising effort, each compared with the finest.
+//! Error against computing time of an annual simulation: the same year with rising effort, each compared with the
+//! finest.
 //!
 //! The errors show how far the computation has converged, not what weather, sky model or data leave out. The
 //! illuminances of all hours at all sensors and observers, and the annual figures are compared. Each year is timed
@@ -14,72 +15,72 @@ use crate::study::year::{Climate, Entry, Step, Year, climate, figures, metrics, 
 use std::path::Path;
 use std::time::Instant;
 
-/// Error targets of a year; the last one is the finest, the reference of the others.
+/// Relative error targets of the years that are computed; the last one is the finest, the reference of the others.
 const TARGETS: [f64; 4] = [0.1, 0.03, 0.01, 0.003];
-/// Share of the mean illuminance below which an hour at a sensor is left out.
+/// Share of the mean illuminance below which an hour at a sensor or observer is left out.
 const DARK: f64 = 0.01;
-/// A figure at one effort.
+/// Annual figure (such as daylight autonomy) computed with a certain effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearFigure {
-    /// Key of the figure; of a list the mean is compared.
+    /// Key of the figure in JSON files; of a figure that is a list the mean is compared.
     pub key: String,
-    /// Value of the figure.
+    /// Value of the figure, in its unit.
     pub value: f64,
-    /// Uncertainty of the figure, as stated.
+    /// Stated uncertainty of the figure, in its unit.
     pub stated: f64,
-    /// Distance from the finest year's value.
+    /// Actual error: absolute difference from the value in the finest year.
     pub real: f64,
 }
 
-/// One year of the refinement series.
+/// Annual simulation with a certain effort: its computing times and its errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearRung {
-    /// Requested relative error; `None`: without an error target.
+    /// Relative error target; `None` for a computation without one.
     pub target: Option<f64>,
-    /// Duration of the computation, with nothing stored before. \[s\]
+    /// Computing time of the year, with nothing stored before. \[s\]
     pub seconds: f64,
-    /// Durations of the stages, by name. \[s\]
+    /// Computing times of the stages, by their names. \[s\]
     pub stages: Vec<(&'static str, f64)>,
-    /// Errors of every hour at every sensor and observer that is not dark, relative to the finest; empty for the finest
-    /// itself.
+    /// Errors of every hour at every sensor and observer that is not dark, relative to the illuminance in the finest
+    /// year; empty for the finest year itself.
     pub errors: Vec<Errors>,
-    /// Mean of the stated errors, relative to the light of all hours.
+    /// Mean of the stated errors of the illuminances, relative to the mean illuminance of all hours.
     pub stated: f64,
-    /// Annual figures.
+    /// Annual figures with their errors.
     pub figures: Vec<YearFigure>,
 }
 
 impl YearRung {
-    /// Returns the root mean square of the distances from the finest.
+    /// Returns the root mean square of the relative differences of the hourly illuminances from the finest year.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// Returns the largest distance from the finest.
+    /// Returns the largest relative difference of an hourly illuminance from the finest year.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
 
-    /// Returns the reliability of the stated errors of the hours; `None` for the finest itself.
+    /// Returns the reliability of the errors stated for the hourly illuminances; `None` for the finest year itself.
     pub fn coverage(&self) -> Option<Coverage> {
         (!self.errors.is_empty()).then(|| Coverage::of(&self.errors))
     }
 }
 
-/// Comparison of a year's whole refinement series.
+/// Result of computing one year with rising effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct YearAccuracy {
-    /// Years by rising effort; the last one is the reference of the others.
+    /// Annual simulations by rising effort; the last one is the reference of the others.
     pub rungs: Vec<YearRung>,
-    /// Number of computed hours, and number of those with light.
+    /// Number of computed hours, and number of those with daylight.
     pub steps: [usize; 2],
-    /// Number of sensors and observers.
+    /// Number of sensors and observers together.
     pub places: usize,
-    /// Number of threads used for the times.
+    /// Number of threads with which the computing times were measured.
     pub threads: usize,
 }
 
-/// Progress that passes on cancellation alone; steps are reported by the refinement series.
+/// Progress of a single run, which only passes on cancellation; the steps are reported by the series of runs.
 pub(super) struct Inner<'a>(pub &'a dyn Progress);
 
 impl Progress for Inner<'_> {
@@ -88,7 +89,8 @@ impl Progress for Inner<'_> {
     }
 }
 
-/// Computes the year of a scene with rising effort. Takes about as long as five years.
+/// Computes the year of a scene with rising effort. Takes about as long as five years. `wanted`: steps of the year that
+/// are computed.
 ///
 /// # Errors
 /// Returns the errors of [`crate::study::year::year`].
@@ -129,7 +131,7 @@ pub fn annual(
     Ok(YearAccuracy { rungs, steps, places: finest.light.places, threads: rayon::current_num_threads() })
 }
 
-/// Returns the error targets by rising effort. The scene's own target is a separate entry, also if it has none.
+/// Returns the error targets by rising effort. The scene's own target (`None` if it has none) is one of them.
 pub(super) fn targets(own: Option<f64>) -> Vec<Option<f64>> {
     let mut targets: Vec<Option<f64>> = TARGETS.into_iter().map(Some).collect();
     if !targets.contains(&own) {
@@ -156,8 +158,9 @@ fn timed(
     Ok((year, clock.elapsed().as_secs_f64()))
 }
 
-/// Returns the errors of every lit hour at every place, relative to the finest. States are the same, since controls
-/// depend on the outside alone, except those that read the room.
+/// Returns the errors of every illuminance that is not dark, by hour and by sensor or observer, relative to the finest
+/// year. The states of systems are the same in both, since controls depend on outdoor conditions, except those that
+/// read the room's sensors.
 fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
     let (own, last) = (&year.light, &finest.light);
     let lit = last.values.iter().filter(|value| **value > 0.0).count();
@@ -173,7 +176,7 @@ fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
     (0..last.values.len()).filter_map(of).collect()
 }
 
-/// Returns the figures with their uncertainty by the errors of the hours.
+/// Returns the annual figures with the uncertainty that follows from the errors of the hourly illuminances.
 fn figures_with_uncertainty(year: &Year) -> Vec<YearFigure> {
     let of = |entry: &Entry| {
         let Estimate { value, error } = entry.estimate()?;

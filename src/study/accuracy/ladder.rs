@@ -1,4 +1,4 @@
-//! Runs of the comparison: the reference, then every method with rising effort.
+//! Runs of the comparison of methods: first the reference, then every method with rising effort.
 
 use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series, Truth};
 use crate::compute::angle::Bearing;
@@ -13,29 +13,31 @@ use crate::study::scene::Scene;
 use crate::study::session::{RoomResult, SensorResult, Session};
 use std::time::Instant;
 
-/// Error targets of the default method.
+/// Relative error targets with which the default method is run.
 const TARGETS: [f64; 5] = [0.1, 0.03, 0.01, 0.003, 0.001];
-/// Numbers of point luminaires along each side.
+/// Numbers of point luminaires along each side of the aperture, with which the subdivision method is run.
 const SIDES: [usize; 7] = [1, 2, 4, 8, 16, 32, 64];
-/// Numbers of random points per sensor.
+/// Numbers of random points per sensor, with which the Monte Carlo method is run.
 const POINTS: [usize; 6] = [64, 256, 1024, 4096, 16_384, 65_536];
-/// Numbers of cells along each profile angle.
+/// Numbers of cells along each profile angle, with which the profile-table method is run.
 const CELLS: [usize; 4] = [45, 90, 180, 360];
-/// Error targets of the reference and of the second finest run, without and with interreflection.
+/// Relative error targets of the reference and of the second finest run: without and with interreflection.
 const REFERENCE: [[f64; 2]; 2] = [[1e-7, 1e-6], [2e-4, 5e-4]];
-/// Maximum number of sensors in a refinement series; of more, an even selection is computed.
+/// Maximum number of sensors that are compared; of more, an even selection is computed.
 const MOST_SENSORS: usize = 256;
-/// Share of the mean illuminance below which a sensor is left out.
+/// Share of the mean illuminance below which a sensor is left out of the comparison.
 const DARK: f64 = 0.01;
-/// Duration below which a run is timed three times, and the shortest counts. \[s\]
+/// Duration below which a run is timed three times, and the shortest time counts. \[s\]
 const SHORT: f64 = 0.3;
 
-/// Computes the refinement series against the method's own finest run. Takes some seconds for a hundred sensors.
+/// Computes a scene with rising effort by every method, and compares the results with the finest run of the default
+/// method. Takes some seconds for a hundred sensors.
 pub fn ladder(scene: &Scene, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
     ladder_against(scene, None, progress)
 }
 
-/// Computes the refinement series against an external reference if there is one, else against the finest run.
+/// Computes a scene with rising effort by every method, and compares the results with an external reference (`truth`)
+/// if there is one, else with the finest run of the default method.
 pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progress) -> Result<Accuracy, StudyError> {
     let run = || {
         let chosen = selection(scene.sensors.len());
@@ -52,13 +54,13 @@ pub fn ladder_against(scene: &Scene, truth: Option<&Truth>, progress: &dyn Progr
     Ok(accuracy)
 }
 
-/// Returns the indices of the sensors that are computed: all of `count`, or an even selection.
+/// Returns the indices of the sensors that are computed: all of `count`, or an even selection of [`MOST_SENSORS`].
 fn selection(count: usize) -> Vec<usize> {
     let most = count.min(MOST_SENSORS);
     (0..most).map(|k| k * count / most).collect()
 }
 
-/// Returns the scene with the chosen sensors alone.
+/// Returns the scene with only the chosen sensors, and with the default method of integration.
 fn thinned(scene: &Scene, chosen: &[usize]) -> Scene {
     let mut scene = scene.clone();
     if chosen.len() < scene.sensors.len() {
@@ -77,14 +79,14 @@ struct Ladder<'a> {
     steps: usize,
 }
 
-/// Reference of one quantity: illuminances with their uncertainty, and whether stated errors must cover the error of
-/// the data too, since an external reference does not depend on them.
+/// Reference for one component of the illuminance: values with their uncertainty, and whether it is an external one,
+/// whose values do not depend on the BSDF data, so that stated errors must cover the uncertainty of these too.
 struct Judge {
     values: Vec<Estimate>,
     outside: bool,
 }
 
-/// Progress that passes on cancellation alone; steps are reported by the refinement series.
+/// Progress of a single run, which only passes on cancellation; the steps are reported by the series of runs.
 struct Inner<'a>(&'a dyn Progress);
 
 impl Progress for Inner<'_> {
@@ -94,6 +96,7 @@ impl Progress for Inner<'_> {
 }
 
 impl Ladder<'_> {
+    /// Runs the reference and all methods. `all`: number of sensors of the scene before the selection.
     fn run(&mut self, all: usize) -> Result<Accuracy, StudyError> {
         let direct = Scene { interreflection: false, ..self.scene.clone() };
         let reflects = Plan::new(&self.scene).runs("interreflection");
@@ -145,7 +148,7 @@ impl Ladder<'_> {
         Ok(())
     }
 
-    /// Returns the reference of a quantity: the given external one, or else the finest run.
+    /// Returns the reference for a component of the illuminance: the given external one, or else the finest run.
     fn reference(
         &mut self,
         scene: &Scene,
@@ -182,6 +185,8 @@ impl Ladder<'_> {
         Ok(Series { method, quantity, rungs })
     }
 
+    /// Computes the scene with one effort, described by `setting`: its times for first sky, new sky and new sun
+    /// position, and its errors against the reference.
     fn rung(&mut self, setting: String, scene: &Scene, truth: &Judge) -> Result<Rung, StudyError> {
         self.step()?;
         let progress = Inner(self.progress);
@@ -237,7 +242,7 @@ fn share(result: &RoomResult, error: impl Fn(&SensorResult) -> f64) -> f64 {
 }
 
 impl Judge {
-    /// Returns the errors of the sensors that are not dark.
+    /// Returns the errors of the illuminances at all sensors that are not dark.
     fn errors(&self, result: &RoomResult) -> Vec<Errors> {
         let of = |(row, truth): (&SensorResult, &Estimate)| {
             let stated = if self.outside { row.total().error } else { row.numerical_error() };
@@ -257,7 +262,7 @@ impl Judge {
         self.values.iter().filter(|e| e.value > lit).map(|e| e.error / e.value).fold(0.0, f64::max)
     }
 
-    /// Returns the illuminance above which a sensor counts. \[lx\]
+    /// Returns the illuminance above which a sensor is not dark and is compared. \[lx\]
     fn least(&self) -> f64 {
         DARK * self.values.iter().map(|e| e.value).sum::<f64>() / self.values.len().max(1) as f64
     }

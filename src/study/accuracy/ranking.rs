@@ -1,9 +1,10 @@
-//! Error against run time of a ranking: the same products with rising effort, each list compared with the finest.
+//! Error against computing time of a ranking: the same products ranked with rising effort, each list compared with the
+//! finest.
 //!
 //! Compared are the products' scores, 0 … 1, and the order of pairs of products. If two products differ in the finest
-//! list by more than twice its stated errors of both, every other list must distinguish them, in the same order. Each
-//! list is timed separately with its own session, on all processors; the first one also computes missing data of
-//! built-in products.
+//! list by more than twice the sum of its stated errors of both, every other list must distinguish them, in the same
+//! order. Each list is timed separately with its own session, on all processors; the first one also computes missing
+//! data of built-in products.
 
 use super::annual::{Inner, targets};
 use super::{Coverage, Errors};
@@ -17,74 +18,75 @@ use crate::study::system::SystemLibrary;
 use std::sync::Arc;
 use std::time::Instant;
 
-/// Effort that a ranking is computed with.
+/// Effort with which a ranking is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Effort {
-    /// Data that are constant on their patches: the first result that the window shows.
+    /// BSDF data taken as constant on their patches: the first result that the window shows.
     Cells,
-    /// Error target with sharp beams; `None`: all as in the scene.
+    /// Sharp beams, with this relative error target; `None`: all settings as in the scene.
     Target(Option<f64>),
 }
 
-/// Order of the pairs of products that the finest list distinguishes.
+/// Agreement of a ranking with the finest one in the order of pairs of products.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Pairs {
-    /// Number of pairs that were ranked in both lists.
+    /// Number of pairs of products that were ranked in both lists.
     pub all: usize,
-    /// Number of pairs that differ in the finest list by more than twice its stated errors of both.
+    /// Number of pairs whose scores differ in the finest list by more than twice the stated errors of both.
     pub distinct: usize,
-    /// Number of these pairs that are distinguished in the same order.
+    /// Number of these pairs that the list distinguishes in the same order.
     pub same_order: usize,
-    /// Number of these pairs that are distinguished in the opposite order; the rest is not distinguished.
+    /// Number of these pairs that the list distinguishes in the opposite order; the rest is not distinguished.
     pub reversed: usize,
 }
 
-/// One ranking of the refinement series.
+/// One ranking with a certain effort, compared with the finest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankRung {
     /// Effort of the computation.
     pub effort: Effort,
-    /// Duration of the computation, with nothing stored before. \[s\]
+    /// Computing time of the ranking, with nothing stored before. \[s\]
     pub seconds: f64,
-    /// Mean of the stated errors of the scores.
+    /// Mean of the errors stated for the scores, on their scale 0 … 1.
     pub stated: f64,
-    /// Errors of every product's score, on the scale 0 … 1; empty for the finest itself.
+    /// Stated and actual error of every product's score, on its scale 0 … 1; empty for the finest ranking itself.
     pub errors: Vec<Errors>,
-    /// Pairs compared with the finest; for the finest itself with its own stated errors.
+    /// Agreement with the finest ranking in the order of pairs; for the finest itself, pairs by its own stated errors.
     pub pairs: Pairs,
 }
 
 impl RankRung {
-    /// Returns the root mean square of the distances from the finest.
+    /// Returns the root mean square of the differences of the scores (0 … 1) from the finest ranking.
     pub fn rms(&self) -> f64 {
         (self.errors.iter().map(|e| e.real * e.real).sum::<f64>() / self.errors.len().max(1) as f64).sqrt()
     }
 
-    /// Returns the largest distance from the finest.
+    /// Returns the largest difference of a score (0 … 1) from the finest ranking.
     pub fn max(&self) -> f64 {
         self.errors.iter().map(|e| e.real).fold(0.0, f64::max)
     }
 
-    /// Returns the reliability of the stated errors; `None` for the finest itself.
+    /// Returns the reliability of the errors stated for the scores; `None` for the finest ranking itself.
     pub fn coverage(&self) -> Option<Coverage> {
         (!self.errors.is_empty()).then(|| Coverage::of(&self.errors))
     }
 }
 
-/// Comparison of a ranking's whole refinement series.
+/// Result of computing a ranking with rising effort.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RankAccuracy {
     /// Rankings by rising effort; the last one is the reference of the others.
     pub rungs: Vec<RankRung>,
-    /// Number of lists.
+    /// Number of ranked lists (one for each climate and azimuth).
     pub lists: usize,
-    /// Number of products of all lists, and number of those that have figures in the finest.
+    /// Number of products in all lists, and number of those that are not excluded in the finest ranking.
     pub products: [usize; 2],
-    /// Number of threads used for the times.
+    /// Number of threads with which the computing times were measured.
     pub threads: usize,
 }
 
-/// Computes a ranking with rising effort. The last two take several times as long as one with the default effort.
+/// Computes a ranking with rising effort, and compares each result with the finest. The last two rankings take several
+/// times as long as one with the default effort.
 ///
 /// # Errors
 /// Returns the errors of [`run`].
@@ -134,7 +136,7 @@ fn efforts(groups: &[Group]) -> Vec<Effort> {
     std::iter::once(Effort::Cells).chain(targets(own).into_iter().map(Effort::Target)).collect()
 }
 
-/// Computes the lists with an effort, all of them with the same products in the same order.
+/// Computes the ranked lists with one effort, all of them with the same products in the same order.
 fn lists(
     groups: &[Group],
     effort: Effort,
@@ -162,7 +164,7 @@ fn lists(
     Ok(lists_of(&groups, &items, outcomes, &vec![String::new(); items.len()]))
 }
 
-/// Scores of the products, by list; `None` for excluded ones.
+/// Scores of the products, 0 … 1, by list and product; `None` for excluded ones.
 type Scores = Vec<Vec<Option<Estimate>>>;
 
 fn scores(lists: &[List]) -> Scores {
@@ -182,6 +184,7 @@ fn errors(own: &Scores, finest: &Scores) -> Vec<Errors> {
     .collect()
 }
 
+/// Counts the pairs of products that a ranking (`own`) orders like the finest one.
 fn pairs(own: &Scores, finest: &Scores) -> Pairs {
     let mut pairs = Pairs::default();
     for (own, finest) in own.iter().zip(finest) {

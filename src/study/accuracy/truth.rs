@@ -1,4 +1,4 @@
-//! External reference: illuminances of the same sensors from a file, by measurement or by another program.
+//! External reference: illuminances at the sensors of a scene from a file, measured or computed by another program.
 
 use crate::compute::estimate::Estimate;
 use crate::formats::decimal_comma::with_decimal_points;
@@ -9,20 +9,20 @@ use crate::study::scene::Scene;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use std::path::Path;
 
-/// Tolerance of a sensor's position, and of the components of its unit normal, since tables are rounded. \[m\]
+/// Tolerance of a sensor's position \[m\] and of the components of its unit normal, since tables are rounded.
 const SAME: f64 = 1e-4;
 
-/// Illuminances of a scene's sensors, in their order.
+/// External reference: illuminances at a scene's sensors, in the order of the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truth {
     name: String,
-    /// Illuminances by all light. \[lx\]
+    /// Total illuminances: direct and interreflected. \[lx\]
     total: Vec<Estimate>,
-    /// Illuminances directly from the apertures, if the file has them. \[lx\]
+    /// Direct components, from the apertures without reflection in the room, if the file has them. \[lx\]
     direct: Option<Vec<f64>>,
 }
 
-/// Indices of the columns.
+/// Indices of the columns of the table.
 struct Columns {
     position: [usize; 3],
     normal: Option<[usize; 3]>,
@@ -46,6 +46,7 @@ impl Truth {
         Self::parse(name, &with_decimal_points(&text), scene).map_err(wrong)
     }
 
+    /// Reads the table from its text. `name`: name of the file for messages.
     fn parse(name: String, text: &str, scene: &Scene) -> Result<Self, String> {
         let mut reader = ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
         let header = reader.headers().map_err(|error| message(&error))?;
@@ -91,24 +92,23 @@ impl Truth {
         Ok(Self { name, total, direct })
     }
 
-    /// Returns the name of the file.
+    /// Returns the name of the file from which the reference was read.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Returns the illuminances by all light. \[lx\]
+    /// Returns the total illuminances at the sensors, with their uncertainty. \[lx\]
     pub(super) fn total(&self) -> Vec<Estimate> {
         self.total.clone()
     }
 
-    /// Returns the illuminances directly from the apertures, if the file has them; their uncertainty is that of all
-    /// light. \[lx\]
+    /// Returns the direct components, if the file has them; their uncertainty is that of the total illuminances. \[lx\]
     pub(super) fn direct(&self) -> Option<Vec<Estimate>> {
         let direct = self.direct.as_ref()?;
         Some(direct.iter().zip(&self.total).map(|(&value, total)| Estimate::new(value, total.error)).collect())
     }
 
-    /// Returns the reference of the chosen sensors alone.
+    /// Returns the reference of the chosen sensors only, given by their indices.
     pub(super) fn only(&self, chosen: &[usize]) -> Self {
         Self {
             name: self.name.clone(),
@@ -119,6 +119,7 @@ impl Truth {
 }
 
 impl Columns {
+    /// Finds the columns by their names in the header; returns a message about a missing one.
     fn of(header: &StringRecord) -> Result<Self, String> {
         let find = |name: &str| header.iter().position(|cell| cell == name);
         let need = |name: &str| {

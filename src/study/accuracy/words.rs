@@ -1,5 +1,5 @@
-//! Texts about a comparison: what was compared, where it cannot determine errors, and where effort does not help.
-//! Command line and window use the same texts.
+//! Texts about a comparison of methods: what was compared, where the reference cannot determine errors, and where more
+//! effort does not help. Command line and window use the same texts.
 
 use super::{Accuracy, Errors, Origin, Quantity, Reference, Rung, Series};
 use crate::texts::{decimal, words as texts};
@@ -20,7 +20,7 @@ fn short(relative: f64) -> String {
     decimal(format!("{percent:.digits$} %"))
 }
 
-/// Returns the label of a quantity in tables.
+/// Returns the label of a component of the illuminance in tables.
 pub fn quantity(quantity: Quantity) -> &'static str {
     match quantity {
         Quantity::Direct => texts::DIRECT.get(),
@@ -28,7 +28,7 @@ pub fn quantity(quantity: Quantity) -> &'static str {
     }
 }
 
-/// Returns the kind of error that a reference determines.
+/// Returns the kind of error that a reference determines: against the finest run, or against an external file.
 pub fn kind(reference: &Reference) -> String {
     match &reference.origin {
         Origin::FinestRun { .. } => texts::KIND_FINEST.into(),
@@ -36,7 +36,7 @@ pub fn kind(reference: &Reference) -> String {
     }
 }
 
-/// Returns the kind of error for an axis that shows all series.
+/// Returns the label of an axis for the errors of all series.
 pub fn axis(accuracy: &Accuracy) -> &'static str {
     let given = |reference: &Reference| matches!(reference.origin, Origin::Given(_));
     match accuracy.references.iter().filter(|reference| given(reference)).count() {
@@ -47,7 +47,7 @@ pub fn axis(accuracy: &Accuracy) -> &'static str {
     .get()
 }
 
-/// Describes a reference and its accuracy.
+/// Returns a sentence on a reference and its accuracy.
 pub fn reference(reference: &Reference) -> String {
     let stated = percent(reference.stated);
     match (&reference.origin, reference.quantity) {
@@ -76,8 +76,8 @@ pub fn undetermined_reason(rung: &Rung, reference: &Reference) -> Option<String>
     })
 }
 
-/// Returns the effort above which more does not help, since the data are less certain than the computation; `None` if
-/// there is none.
+/// Returns a sentence that names the effort above which more does not help, because the uncertainty by the BSDF data
+/// exceeds the numerical error; `None` if there is none.
 pub fn data_limit(series: &Series) -> Option<String> {
     let first = series.rungs.iter().position(Rung::is_limited_by_data)?;
     let rung = &series.rungs[first];

@@ -1,4 +1,5 @@
-//! Light of the sun in a prepared scene: scattered light, and beams where they fall.
+//! Illuminance at the sensors of a prepared scene by the sun: scattered sunlight, and beams on the surfaces that they
+//! meet.
 
 use super::Coefficients;
 use super::sun_way::SunLight;
@@ -17,12 +18,13 @@ use crate::study::session::responses::Responses;
 use crate::study::session::unit_beams::{Together, UnitBeam};
 use std::sync::{Arc, OnceLock};
 
-/// Error of the share of scattered light from a part of an aperture, relative to the product of that share and the
-/// rest.
+/// Error of the share of scattered sunlight that comes from a part of an aperture, relative to the product of that
+/// share and the remaining one.
 const ALIKE: f64 = 0.1;
 
-/// Returns the scattered sunlight of a part of an aperture. `all`: light of the whole aperture; `reflected`: its
-/// interreflected part; `shares`: those of the part in direct and in interreflected light.
+/// Returns the illuminance by the scattered sunlight of a part of an aperture. `all`: illuminance by the whole
+/// aperture; `reflected`: its interreflected part; `shares`: shares of the part in the direct and in the interreflected
+/// illuminance.
 fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate {
     let Some([straight, by_room]) = shares else { return all };
     let value = (all.value - reflected) * straight + reflected * by_room;
@@ -30,27 +32,28 @@ fn of_part(all: Estimate, reflected: f64, shares: Option<[f64; 2]>) -> Estimate 
     Estimate::new(value, all.error * straight.max(by_room) + error.abs())
 }
 
-/// Maximum number of beams of a fan that are seen with sharp outlines, strongest first.
+/// Maximum number of beams of one aperture whose lit areas are seen with sharp outlines, strongest first.
 const OUTLINED: usize = 4;
 
 impl Coefficients {
-    /// Computes the sun's light at every sensor, the disc seen by regular transmission included. \[lx\]
+    /// Computes the illuminance at every sensor by the sun, scattered and as beams, including the solar disc seen by
+    /// regular transmission. \[lx\]
     pub fn sun(&self, sun: &Sun) -> Vec<f64> {
         self.of_sun(None, sun, false).into_iter().map(|e| e.value).collect()
     }
 
-    /// Computes the sun's light at every sensor with its error. \[lx\]
+    /// Computes the illuminance at every sensor by the sun, with its error. \[lx\]
     pub fn sun_estimate(&self, sun: &Sun) -> Vec<Estimate> {
         self.of_sun(None, sun, true)
     }
 
-    /// Computes the sun's light with its error for an hour of the year of [`Self::keep_year`]. \[lx\] For many systems
-    /// it is faster than [`Self::sun_estimate`].
+    /// Computes the illuminance at every sensor by the sun in one hour of the year given to [`Self::keep_year`], with
+    /// its error. \[lx\] For many systems it is faster than [`Self::sun_estimate`].
     pub fn hour_sun_estimate(&self, hour: usize, sun: &Sun) -> Vec<Estimate> {
         self.of_sun(Some(hour), sun, true)
     }
 
-    /// Computes the sun's light at every sensor; without `errors` values only. \[lx\]
+    /// Computes the illuminance at every sensor by the sun; without `errors` the values only. \[lx\]
     fn of_sun(&self, hour: Option<usize>, sun: &Sun, errors: bool) -> Vec<Estimate> {
         let sensors = self.scene.sensors.len();
         let mut sums = vec![Estimate::default(); sensors];
@@ -118,8 +121,8 @@ impl Coefficients {
         sums.into_iter().map(whole).collect()
     }
 
-    /// Adds the interreflected light of beams: of those that are known per 1 lm, each with its flux \[lm\], and of
-    /// others.
+    /// Adds the interreflected light of beams to the illuminances at the sensors: of beams known per 1 lm, each with
+    /// its flux \[lm\], and of other beams.
     fn add_interreflected(
         &self,
         room: &Responses,
@@ -167,7 +170,7 @@ impl Coefficients {
         }
     }
 
-    /// Adds light computed for the actual sun position, and returns its beams.
+    /// Adds the illuminance by scattered sunlight that was computed for the actual sun position, and returns its beams.
     fn add_scattered(
         &self,
         index: usize,
@@ -187,7 +190,8 @@ impl Coefficients {
         found.beams.into_iter().chain(BeamLight::regular(regular, facing)).map(|beam| beam.scaled(clear)).collect()
     }
 
-    /// Adds light by the data's own cells or directions, and returns the beams of regular transmission.
+    /// Adds the illuminance by sunlight scattered according to the data's own cells or directions, and returns the
+    /// beams of regular transmission.
     fn add_data(
         &self,
         index: usize,

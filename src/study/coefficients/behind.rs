@@ -1,8 +1,9 @@
-//! V·T·D of an aperture behind boxes: columns for the luminances outside.
+//! Daylight coefficients (V·T·D) of an aperture behind boxes: illuminance at every sensor per luminance outside.
 //!
-//! Direct light of a sensor is traced back: to the point of the aperture in every direction, to the patches from which
-//! the system sends light there, to the luminances that the point sees through these. Interreflected light depends
-//! less on where light enters: nine nodes of the aperture are enough.
+//! The direct light of a sensor is traced back: to the point of the aperture in every direction, to the incident
+//! patches from which the system sends light into that direction, to the outside luminances that the point sees through
+//! these patches. Interreflected light depends less on the point at which light enters: nine nodes of the aperture are
+//! enough.
 
 use super::sent::{Luminances, Patch, Sent, lit as lit_cells};
 use super::transport::Column;
@@ -33,25 +34,26 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Number of directions in which a sensor sees the outside by regular transmission, below the horizon and above.
+/// Number of directions in which a sensor sees the outside by regular transmission, for the parts below and above the
+/// horizon each.
 const THROUGH: u32 = 4096;
-/// Memory per sensor for a cell that it sees. \[bytes\]
+/// Estimated memory per sensor for each emergent cell that it sees. \[bytes\]
 const CELL_SEEN: usize = 128;
-/// Number of nodes along each side of an aperture for interreflected light.
+/// Number of nodes along each side of an aperture at which its interreflected light is computed.
 const NODES: usize = 3;
 /// Number of sensors whose weights are computed together.
 const TOGETHER: usize = 16;
 /// Number of sensors whose interreflected light is summed together. Chosen: memory only, no effect on results.
 const BLOCK: usize = 32;
 
-/// Obstructions in front of all apertures of a scene.
+/// Obstructions in front of the apertures of a scene, prepared for many skies.
 pub(super) struct Behind {
     pub prepared: Arc<Prepared>,
-    /// Boxes alone, dark.
+    /// Boxes without light on them.
     pub around: Surroundings,
 }
 
-/// Aperture behind obstructions.
+/// Aperture behind obstructions, prepared for many skies.
 pub(super) struct Past {
     aperture: Aperture,
     grid: Grid,
@@ -59,31 +61,33 @@ pub(super) struct Past {
     patches: RingBasis,
     sent: Option<Sent>,
     sensors: Vec<Sensor>,
-    /// Emergent cells that every sensor sees, then bands.
+    /// Emergent cells that every sensor sees through points of the aperture, and below the same for bands of the
+    /// profile angle.
     cells: Arc<Vec<CellWeights>>,
     bands: Arc<Vec<CellWeights>>,
-    /// Scattered light at the sensors by patch, sensor and point of the grid; empty where that would need too much
-    /// memory.
+    /// Scattered direct light at the sensors by incident patch, sensor and point of the aperture, per illuminance
+    /// through the patch; empty where that would need too much memory.
     by_patch: Vec<OnceLock<Vec<f32>>>,
-    /// Interreflected light per illuminance by patch, node and sensor.
+    /// Interreflected illuminance at the sensors per illuminance through a patch, by patch, node of the aperture and
+    /// sensor.
     reflected: Vec<Vec<f32>>,
 }
 
-/// Outside and sun at one time, which may be an hour of a year.
+/// Outside and sun at one point in time, which may be an hour of a year.
 pub(super) struct Moment<'a> {
     pub outside: &'a Outside,
     pub sun: Option<&'a Sun>,
     pub hour: Option<usize>,
 }
 
-/// Returns the place of every cell in a list; `None` where the list lacks it.
+/// Returns the position of every cell in a list of weights; `None` for cells that are not in it.
 fn places(named: &CellWeights, count: usize) -> Vec<Option<usize>> {
     let mut places = vec![None; count];
     named.iter().enumerate().for_each(|(place, (cell, _))| places[*cell] = Some(place));
     places
 }
 
-/// Adds the light of cells that a sensor sees to the points of a grid where it leaves the aperture.
+/// Adds the light of emergent cells that a sensor sees to the points of the aperture at which it leaves.
 fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], points: &mut [f64]) {
     for (cell, q) in light {
         let Some(place) = places[*cell] else { continue };
@@ -92,13 +96,15 @@ fn add(light: &Luminances, seen: &CellWeights, places: &[Option<usize>], points:
 }
 
 impl Behind {
+    /// Creates the obstructions from those that are prepared for many skies.
     pub fn new(prepared: Arc<Prepared>) -> Self {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// Prepares an aperture and returns its columns by luminance, with rows of all sensors as in
-    /// [`super::part::Sums`]. `columns`: interreflected light of every patch, node by node. `direct`: cache of direct
-    /// light by aperture, while the room's meshes become finer.
+    /// Prepares an aperture, and returns its table: a column for each luminance outside, with rows of all sensors as in
+    /// [`super::part::Sums`]. `columns`: interreflected light of every incident patch, node by node; `sent`: scattered
+    /// light of the system by incident patch; `regular`: its regular transmittance; `direct`: cache of direct light by
+    /// aperture, shared by all meshes of the room.
     ///
     /// # Errors
     /// Returns an error if there are more sensors than fit, or if cancelled.
@@ -209,7 +215,8 @@ impl Behind {
         Ok(tables)
     }
 
-    /// Returns the weights of luminances at a sensor that it sees through a regular transmittance. \[sr\]
+    /// Returns the weights of the outside luminances that a sensor sees through the aperture by regular transmission.
+    /// \[sr\]
     fn regular(&self, opening: &Opening<'_>, sensor: &Sensor, tau: &AngularTransmittance) -> Counts {
         let mut row = SparseSum::new(self.prepared.count());
         let scene = opening.scene;
@@ -231,8 +238,9 @@ impl Behind {
 }
 
 impl Past {
-    /// Returns the weights of luminances in scattered direct light at sensors from the `first` on, luminance by
-    /// luminance. `by_point`: their weights at the grid's points by patch. `count`: number of luminances. \[sr\]
+    /// Returns the weights of outside luminances in the scattered direct light at sensors from the `first` on,
+    /// luminance by luminance. `by_point`: weights of luminances at the points of the aperture, by incident patch;
+    /// `count`: number of luminances. \[sr\]
     fn scattered(&self, first: usize, by_point: &[Vec<Counts>], count: usize) -> Vec<[f32; TOGETHER]> {
         let Some(sent) = &self.sent else { return Vec::new() };
         let count_of_points = self.grid.count();
@@ -267,7 +275,8 @@ impl Past {
         sums
     }
 
-    /// Returns the light of rows that a sensor sees through the points of the grid. \[sr\]
+    /// Returns the light of the listed rows of the system's data that a sensor sees, by point of the aperture, per
+    /// illuminance. \[lx/lx\]
     fn rows_seen(&self, sent: &Sent, sensor: usize, by_cell: &[Option<usize>], rows: &[usize]) -> Vec<Vec<f64>> {
         let by_band = sent.bands.map(|(_, count)| places(&self.bands[sensor], count));
         let of = |row: &usize| {
@@ -281,8 +290,8 @@ impl Past {
         rows.iter().map(of).collect()
     }
 
-    /// Returns the light by cells and by shares of rows that every sensor sees through the points of the grid, sensor
-    /// by sensor.
+    /// Returns the scattered light that every sensor sees, sensor by sensor and point of the aperture by point, for an
+    /// emission that is the sum of light by cells (`own`) and shares of rows (`rows`).
     fn seen(&self, sent: &Sent, own: &Luminances, rows: &[(usize, f64)]) -> Vec<f32> {
         let numbers: Vec<usize> = rows.iter().map(|(row, _)| *row).collect();
         let of = |sensor: usize| {
@@ -297,9 +306,9 @@ impl Past {
         (0..self.sensors.len()).flat_map(of).collect()
     }
 
-    /// Returns the shares of a sunlit part in the aperture's scattered sunlight, direct and interreflected, for every
-    /// sensor. The light's distribution over directions is that of `cells`, luminances of the data's cells where they
-    /// are known for the actual sun position \[cd/m²\], or else that of the incident patch without its own beams.
+    /// Returns, for every sensor, the share of a sunlit part of the aperture in its scattered sunlight, direct and
+    /// interreflected. `cells`: luminances of the data's emergent cells for the actual sun position \[cd/m²\]; if
+    /// empty, light is distributed over directions as for the incident patch of the sun.
     pub fn shares(&self, facing: &Facing<'_>, part: &SunlitPart, cells: &[f64]) -> Vec<[f64; 2]> {
         let patch = facing.sun_entering().and_then(|sun| self.patches.index(sun));
         let Some((sent, p)) = self.sent.as_ref().zip(patch) else { return vec![[part.share; 2]; self.sensors.len()] };
@@ -353,7 +362,8 @@ impl Past {
     }
 }
 
-/// Returns the emergent cells and the bands that every sensor sees through points of a grid, computed or kept. \[sr\]
+/// Returns the emergent cells and the bands of the profile angle that every sensor sees through points of the aperture,
+/// with their weights \[sr\]; computed or stored.
 fn cells_seen(opening: &Opening<'_>, grid: &Grid, sent: &Sent, sensors: &[Sensor]) -> [Arc<Vec<CellWeights>>; 2] {
     let (session, scene, index) = (opening.session, opening.scene, opening.index);
     let aperture = &scene.apertures[index].aperture;
@@ -385,7 +395,8 @@ fn cells_seen(opening: &Opening<'_>, grid: &Grid, sent: &Sent, sensors: &[Sensor
     [cells, session.cells_at_points(scene, index, Err((upright, count)), || each(&by_band))]
 }
 
-/// Returns weights of luminances by patch at points of an aperture in the room frame, computed or kept. \[sr\]
+/// Returns the weights of outside luminances at points of an aperture (in the room frame), by point and incident patch
+/// \[sr\]; computed or stored.
 pub(crate) fn seen_by_points(
     session: &Session,
     scene: &Scene,
@@ -399,7 +410,8 @@ pub(crate) fn seen_by_points(
     session.seen_patches((prepared, 0), &eyes, patches, find)
 }
 
-/// Returns weights of patches by luminance and node, from those at the points of a grid, computed or kept. \[sr\]
+/// Returns the weights of outside luminances at the nodes of an aperture, by luminance and node a list of incident
+/// patches \[sr\], from those at the points of a grid; computed or stored.
 fn seen_by_nodes(
     opening: &Opening<'_>,
     prepared: &Prepared,
@@ -431,7 +443,8 @@ fn seen_by_nodes(
     opening.session.seen_patches((prepared, nodes.count() as u64), &eyes, patches, find)
 }
 
-/// Returns luminances of moments, computed together, or kept for the hours of a year. \[cd/m²\]
+/// Returns the outside luminances at several points in time, computed together, or stored for the hours of a year.
+/// \[cd/m²\]
 pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &[Moment<'_>]) -> Vec<Vec<f64>> {
     let kept: Vec<Option<(&SkyYear, usize)>> = moments.iter().map(|moment| Some((year?, moment.hour?))).collect();
     let missing: Vec<bool> = kept.iter().map(|kept| kept.is_none_or(|(year, hour)| !year.holds(hour))).collect();
@@ -449,7 +462,7 @@ pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &
     kept.into_iter().zip(missing).map(one).collect()
 }
 
-/// Returns the nodes of an aperture for interreflected light.
+/// Returns the nodes of an aperture at which its interreflected light is computed.
 pub(super) fn nodes(aperture: &Aperture) -> Nodes {
     Nodes::new(aperture, NODES, NODES)
 }

@@ -1,4 +1,5 @@
-//! Light of a described system: sky by columns of single patches, the sun by its actual direction.
+//! Illuminance at the sensors behind a described system: sky and ground by incident patches, the sun by its actual
+//! direction.
 
 use super::views::{Opening, SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
@@ -12,29 +13,31 @@ use rayon::prelude::*;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Light at the sensors through the patches of a described system.
+/// Illuminance at the sensors through the incident patches of a described system.
 pub(super) struct Described {
-    /// Patches of the incident hemisphere.
+    /// Basis of the incident hemisphere.
     pub basis: Arc<RingBasis>,
-    /// Light at the sensors, patch by patch.
+    /// Illuminances at the sensors per illuminance of the aperture through each patch.
     pub columns: Vec<SensorRows>,
-    /// Relative error of all light.
+    /// Relative error of all these illuminances.
     pub error: f64,
-    /// Scattered light by profile angle, where it depends on that angle alone.
+    /// Scattered light by profile angle, for a system whose scattering depends on that angle alone.
     pub by_angle: Option<Arc<ByAngle>>,
 }
 
-/// Scattered light at the sensors per illuminance of 1 lx, by profile angle of the incident light.
+/// Illuminance at the sensors by scattered light per 1 lx on the aperture, for a list of profile angles of the incident
+/// light.
 pub(super) struct ByAngle {
     upright: bool,
     rows: Vec<SensorRows>,
-    /// Relative errors of the rows.
+    /// Relative error of the illuminances for each profile angle.
     errors: Vec<f64>,
 }
 
 impl ByAngle {
-    /// Adds the light at the sensors for one incident direction, interpolated linearly between two profile angles.
-    /// `errors`: those of the data, and the distance that light may have from the straight line, are added to it.
+    /// Adds the illuminance at the sensors by scattered light from the incident direction `name`, interpolated linearly
+    /// between two profile angles. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums to which
+    /// values and errors are added \[lx\]; errors contain that of the data and that of the interpolation.
     pub fn add(&self, name: Dir<Facade>, illuminance: f64, light: &mut [f64], errors: &mut [f64]) {
         let (row, near) = between_rows(self.upright, name, self.rows.len());
         let (a, b) = (&self.rows[row], &self.rows[row + 1]);
@@ -52,29 +55,32 @@ impl ByAngle {
     }
 }
 
-/// Light at the sensors per 1 lx on the aperture, and its relative error.
+/// Illuminances at the sensors per 1 lx on the aperture for one incident direction, and their relative error.
 type Node = Arc<(SensorRows, f64)>;
 
-/// Scattered light of a described system, interpolated between directions: nodes are computed when the sun is near.
+/// Scattered light of a described system, interpolated between incident directions on a grid of two angles. Nodes of
+/// the grid are computed when they are first needed.
 pub(super) struct Lattice {
     upright: bool,
-    /// Steps of the angle along the structure and of the profile angle. \[°\]
+    /// Steps of the grid: of the angle along the structure, and of the profile angle. \[°\]
     steps: [f64; 2],
     nodes: Mutex<HashMap<[i64; 2], Node>>,
 }
 
-/// Steps of the angle along the structure and of the profile angle, for a structure that is endless along one axis:
-/// the profile angle has the finer steps, since what blades hide of each other ends sharply across it. \[°\]
+/// Steps of the angle along the structure and of the profile angle, for a structure that is endless along one axis,
+/// such as slats. The profile angle has the finer steps, because shading of one slat by the next changes abruptly with
+/// it. \[°\]
 const ACROSS: [f64; 2] = [7.5, 2.5];
-/// Steps of both angles for a structure that is alike in all directions. \[°\]
+/// Steps of both angles for a structure without a preferred axis. \[°\]
 const EVEN: [f64; 2] = [5.0, 5.0];
-/// Maximum angle of a node. \[°\]
+/// Maximum angle of a node of the grid. \[°\]
 const STEEPEST: f64 = 89.5;
-/// Factor of the difference between interpolation by four nodes and by two that gives the error: many times the error
-/// of smooth light, and a third of that of a lone kink amid four nodes, which is never all of the light.
+/// Factor from the difference between cubic and linear interpolation to the stated error. It gives many times the error
+/// of smooth light, and a third of the error at a single kink between four nodes, which never concerns all of the
+/// light.
 const UNEVEN: f64 = 1.0;
 
-/// Nodes around a place between them, with the weights of interpolation.
+/// Interpolation along one angle: the nodes around a position, with their weights.
 struct Around {
     first: i64,
     near: f64,
@@ -82,7 +88,7 @@ struct Around {
 }
 
 impl Around {
-    /// Creates the weights for the place `at`, in steps; nodes end at ±`last`.
+    /// Creates the weights for the position `at`, counted in steps of the grid; nodes end at ±`last`.
     fn new(at: f64, last: f64) -> Self {
         let first = at.floor();
         let t = at - first;
@@ -101,14 +107,14 @@ impl Around {
         Self { first: first as i64 - 1, near: t, cubic }
     }
 
-    /// Returns the weights of linear interpolation between two nodes.
+    /// Returns the weights of linear interpolation between the two nodes in the middle.
     fn linear(&self) -> [f64; 4] {
         [0.0, 1.0 - self.near, self.near, 0.0]
     }
 }
 
 impl Lattice {
-    /// Creates an empty lattice with the steps that suit a system.
+    /// Creates an empty grid with the steps that suit the structure of a system.
     pub fn of(model: &dyn OpticalModel) -> Self {
         let (upright, steps) = match model.structure() {
             Structure::Along { upright } => (upright, ACROSS),
@@ -117,6 +123,7 @@ impl Lattice {
         Self { upright, steps, nodes: Mutex::default() }
     }
 
+    /// Returns the node at the grid position `at`, computed or stored.
     fn node(&self, model: &dyn OpticalModel, views: &Views, at: [i64; 2]) -> Node {
         // What is kept is whole even if another thread has failed while it held the lock.
         let nodes = || self.nodes.lock().unwrap_or_else(PoisonError::into_inner);
@@ -132,7 +139,9 @@ impl Lattice {
         found
     }
 
-    /// Adds the light at the sensors for one incident direction.
+    /// Adds the illuminance at the sensors by scattered light from the incident direction `name`, interpolated between
+    /// nodes. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums to which values and errors are
+    /// added. \[lx\]
     pub fn add(
         &self,
         model: &dyn OpticalModel,
@@ -171,25 +180,26 @@ impl Lattice {
     }
 }
 
-/// Views of a described system's light from the sensors.
+/// Illuminance at the sensors per luminance of a described system, by cells and by bands of the profile angle.
 pub(super) struct DescribedViews {
-    /// Light on the cells of [`sun_cells`].
+    /// Responses of the sensors to luminances on the cells of [`sun_cells`].
     pub cells: Views,
-    /// Light in the bands of the profile angle that the system scatters to: whether the angle is in the horizontal
-    /// plane, and the number of bands.
+    /// Responses of the sensors to luminances in bands of the profile angle, for a system that scatters by that angle:
+    /// whether the profile angle is in the horizontal plane (vertical structures), and the number of bands.
     pub bands: Option<((bool, usize), Views)>,
 }
 
 impl DescribedViews {
-    /// Computes the views. `bands`: for a system that scatters by profile angle, whether the angle is in the
-    /// horizontal plane, and the number of bands.
+    /// Computes the responses of the sensors. `bands`: for a system that scatters by profile angle, whether the angle
+    /// is in the horizontal plane, and the number of bands.
     pub fn new(opening: &Opening<'_>, bands: Option<(bool, usize)>) -> Result<Self, StudyError> {
         let cells = Views::new(opening, Arc::clone(sun_cells()), Want::All)?;
         let of = |kind| Views::of_bands(opening, kind).map(|views| (kind, views));
         Ok(Self { cells, bands: bands.map(of).transpose()? })
     }
 
-    /// Adds the light at the sensors of light in bands.
+    /// Adds the illuminance at the sensors by light that leaves the aperture in bands of the profile angle, times
+    /// `factor`.
     pub fn add_bands(&self, light: &BandLight, factor: f64, out: &mut [f64]) {
         if let Some((_, views)) = &self.bands {
             for (band, q) in light.light.q.iter().enumerate().filter(|(_, q)| **q != 0.0) {
@@ -200,7 +210,8 @@ impl DescribedViews {
 }
 
 impl Described {
-    /// Computes the light at the sensors, patch by patch.
+    /// Computes the illuminances at the sensors through each incident patch. `through`: emergent light of the system by
+    /// patch; `views`: responses of the sensors to it.
     pub fn new(through: &SkyThrough, views: &DescribedViews) -> Self {
         let rows: Vec<SensorRows> = match through.rows() {
             ScatteredRows::None => Vec::new(),
@@ -244,7 +255,7 @@ impl Described {
     }
 }
 
-/// Returns the relative error of scattered light.
+/// Returns the error of scattered light relative to its flux.
 pub(super) fn relative_error(light: &ProfileLight) -> f64 {
     let share = light.share();
     if share > 0.0 { light.error / share } else { 0.0 }

@@ -1,5 +1,5 @@
-//! Daylight coefficients: a scene prepared once, so that the light of a new sky or sun is the product of its
-//! luminances with the response of every sensor, E = V·T·D·s, interreflection included.
+//! Daylight coefficients: a scene is prepared once, so that the illuminances under a new sky or sun are the product of
+//! its luminances with the response of every sensor, E = V·T·D·s, interreflection included.
 //!
 //! | file | content |
 //! | --- | --- |
@@ -17,8 +17,8 @@
 //! are extracted from the data's cells, or, with `[compute] beam = "cells"`, by the data's own cells or directions.
 //!
 //! Prepared are the room, its apertures and sensors, the systems in their current states and the altitude of the
-//! skyline. A measured sky, constant over patches with jumps between them, and a skyline of another altitude have no
-//! fixed directions that suit them: their light is integrated again and takes milliseconds.
+//! skyline. For a measured sky, which is constant over patches with jumps between them, and for a skyline of another
+//! altitude no fixed directions are suitable: their light is integrated again, which takes milliseconds.
 
 mod beam;
 mod behind;
@@ -56,30 +56,33 @@ use std::sync::Arc;
 pub(super) use transport::{SPACING, patches as incident_patches};
 use views::Opening;
 
-/// Scene prepared for many skies and suns.
+/// Scene prepared for many skies and suns, by daylight coefficients.
 pub struct Coefficients {
     scene: Scene,
     parts: Vec<AperturePart>,
     behind: Option<Behind>,
     room: Option<Responses>,
-    /// Responses of the sensors to beams; `None` where there are no beams.
+    /// Responses of the sensors to beams; `None` if no aperture sends beams.
     unit_beams: Option<Arc<UnitBeams>>,
     directions: f64,
-    /// Data part of the uncertainty, by aperture, as shares of the light.
+    /// Uncertainty of the illuminances by the BSDF data, by aperture, as shares of its light.
     data: Vec<DataShare>,
-    /// Expected number of suns; 0 where it is not known.
+    /// Expected number of sun positions; 0 if not known.
     suns: usize,
 }
 
-/// Error by prepared obstructions, relative to all light: the bound in the test of [`Prepared`], and a third more.
+/// Relative error of the illuminances by preparing obstructions for many skies: the bound in the test of [`Prepared`],
+/// and a third more.
 const BEHIND: f64 = 4e-3;
-/// Safety factor on the error of the fixed directions, which is measured on a few skies and stated for others.
+/// Safety factor on the error of evaluating skies in fixed directions, which is determined for a few skies and stated
+/// for all others.
 const OTHER_SKIES: f64 = 2.0;
 
-/// Altitude of the sun of the steep sky among the trial skies. \[rad\]
+/// Altitude of the sun in the sky with the steepest gradients among the trial skies. \[rad\]
 const STEEP: f64 = 0.5;
 
-/// Returns the skies without ground that fixed directions are tried under: two clear ones, and a steep one.
+/// Returns the skies (without ground) for which the error of fixed directions is determined: two clear ones, and one
+/// with steep gradients.
 fn trial_skies(facade: Bearing) -> Vec<Outside> {
     let under = |of: &dyn Fn(Dir<World>) -> Option<Distribution>, altitude: f64, turn: f64| {
         let sun = Dir::from_altitude_bearing(altitude, Bearing::from_radians(facade.radians() + turn));
@@ -96,7 +99,8 @@ fn trial_skies(facade: Bearing) -> Vec<Outside> {
 }
 
 impl Coefficients {
-    /// Prepares a scene. Its own sky and sun do not matter, except for how finely the room is meshed.
+    /// Prepares a scene. Its own sky and sun do not matter, except that the mesh of the room is refined until the
+    /// illuminances under this sky meet the error target.
     ///
     /// # Errors
     /// Returns an error if the scene needs a near-field method other than the solid-angle method, has luminaire files
@@ -105,7 +109,8 @@ impl Coefficients {
         Self::past(session, scene, None, progress)
     }
 
-    /// Prepares a scene behind obstructions that are prepared already; its own outside has none.
+    /// Prepares a scene behind obstructions that are prepared already (`prepared`); the outside of `scene` must have
+    /// none.
     ///
     /// # Errors
     /// Returns the errors of [`Self::new`].
@@ -158,6 +163,7 @@ impl Coefficients {
         }
     }
 
+    /// Prepares a scene with the given responses of the room, `None` without interreflection.
     fn with(
         session: &Session,
         scene: &Scene,
@@ -188,15 +194,15 @@ impl Coefficients {
         Ok(coefficients)
     }
 
-    /// Adds the data part of the uncertainty, which a finer mesh does not reduce.
+    /// Adds the uncertainty by the BSDF data, which a finer mesh does not reduce.
     fn add_data_uncertainty(&mut self, session: &Session, progress: &dyn Progress) -> Result<(), StudyError> {
         let known = |index: usize| self.parts[index].transport.estimates_uncertainty();
         self.data = session.data_shares(&self.scene, known, progress)?;
         Ok(())
     }
 
-    /// Returns the largest relative difference between the fixed directions and integrals, on the scene's sky, two
-    /// clear ones and a steep one.
+    /// Returns the largest relative difference of an illuminance between evaluation in fixed directions and
+    /// integration, under the scene's sky and the trial skies.
     fn gap_of_directions(&self, session: &Session) -> f64 {
         let around = self.scene.outside.surroundings().map(|around| Arc::new(around.clone()));
         let own = &self.scene.outside;
@@ -219,14 +225,15 @@ impl Coefficients {
         largest
     }
 
-    /// Whether the fixed directions suit an outside.
+    /// Whether an outside can be evaluated in the fixed directions.
     fn is_smooth(&self, outside: &Outside) -> bool {
         self.behind.is_some() || !outside.is_piecewise_constant() && far::same(outside, &self.scene.outside)
     }
 
-    /// Stores in `session`, for all systems, the values of the hours of a year on the patches of this scene. `year`: a
-    /// number that no other year has, and the count of its hours. The hours are computed by [`Self::hours_estimate`],
-    /// with about `suns` suns: the light of many suns may be interpolated between directions, with the error of that.
+    /// Stores in `session`, for all systems, the light of each hour of a year on the patches of this scene. `year`: a
+    /// number that no other year has, and the number of its hours; `suns`: approximate number of sun positions. If they
+    /// are many, scattered sunlight may be interpolated between directions, with the error of that. The hours are then
+    /// computed by [`Self::hours_estimate`].
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
         self.suns = suns;
         let parts = self.parts.iter_mut().enumerate();
@@ -246,18 +253,19 @@ impl Coefficients {
         sums
     }
 
-    /// Computes the diffuse light at every sensor from sky, ground and skyline. \[lx\]
+    /// Computes the diffuse illuminance at every sensor by sky, ground and skyline. \[lx\]
     pub fn sky(&self, outside: &Outside) -> Vec<f64> {
         self.diffuse(outside, self.way(outside))
     }
 
-    /// Computes the diffuse light at every sensor with its error. \[lx\]
+    /// Computes the diffuse illuminance at every sensor by sky, ground and skyline, with its error. \[lx\]
     pub fn sky_estimate(&self, outside: &Outside) -> Vec<Estimate> {
         self.estimated(&[(outside, self.way(outside))]).swap_remove(0)
     }
 
-    /// Computes the diffuse light with its error for hours of the year of [`Self::keep_year`], whose outsides these
-    /// are. \[lx\] The results are those of [`Self::sky_estimate`]; many hours together take less time.
+    /// Computes the diffuse illuminances with their errors for hours of the year given to [`Self::keep_year`]: index,
+    /// outside and sun of each. \[lx\] The results are those of [`Self::sky_estimate`]; many hours together take less
+    /// time.
     pub fn hours_estimate(&self, hours: &[(usize, &Outside, Option<&Sun>)]) -> Vec<Vec<Estimate>> {
         let way = |&(hour, outside, sun)| {
             (outside, if self.is_smooth(outside) { Way::Hour(hour, sun) } else { Way::Exact(None) })
@@ -265,6 +273,7 @@ impl Coefficients {
         self.estimated(&hours.iter().map(way).collect::<Vec<_>>())
     }
 
+    /// Computes the diffuse illuminances of several skies with their errors, each by the given method. \[lx\]
     fn estimated(&self, skies: &[(&Outside, Way<'_>)]) -> Vec<Vec<Estimate>> {
         let sensors = self.scene.sensors.len();
         let mut estimates = vec![vec![Estimate::default(); sensors]; skies.len()];
@@ -290,18 +299,19 @@ impl Coefficients {
         estimates
     }
 
-    /// Returns the relative error of the fixed directions, at the sensor where it is largest: twice the difference to
-    /// integrals under the scene's sky, two clear ones and a steep one. It is part of [`Self::sky_estimate`].
+    /// Returns the relative error of an illuminance by evaluating skies in fixed directions, at the sensor where it is
+    /// largest: twice the difference from integration, under the scene's sky and three trial skies. It is part of the
+    /// errors of [`Self::sky_estimate`].
     pub fn error(&self) -> f64 {
         self.directions
     }
 
-    /// Returns the number of luminances that are evaluated for a new sky.
+    /// Returns the number of directions in which the luminance of a new sky is evaluated.
     pub fn evaluations(&self) -> usize {
         self.parts.iter().map(AperturePart::evaluations).sum()
     }
 
-    /// Returns the error of the mesh besides the difference of its densities, relative to interreflected light.
+    /// Returns the error of the mesh that both of its densities share, relative to the interreflected illuminance.
     fn rest(&self) -> f64 {
         self.room.as_ref().map_or(0.0, |room| REST / room.radiosity.nested.fine.patches.len() as f64)
     }

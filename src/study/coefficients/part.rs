@@ -1,5 +1,5 @@
-//! V·T·D of one aperture: columns for the sky by patch, one for the ground, one for the skyline; and the outside seen
-//! by regular transmission, by directions chosen for every sensor.
+//! Daylight coefficients (V·T·D) of one aperture: a column for each sky patch, one for the ground, one for the skyline;
+//! and the outside seen by regular transmission, in directions chosen for every sensor.
 
 use super::behind::{Behind, Moment, Past, luminances, nodes};
 use super::described::{Described, DescribedViews};
@@ -33,57 +33,59 @@ use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// Maximum number of skies whose sums are computed together.
+/// Maximum number of skies whose illuminances are computed together.
 pub(crate) const TOGETHER: usize = 128;
-/// Multiple to which the number of skies is filled up with dark ones, so that no sky's sums depend on the number of
-/// others.
+/// Multiple to which the number of skies is filled up with dark ones, so that the sums for a sky do not depend on the
+/// number of others.
 const COLUMNS: usize = 32;
 
-/// Prepared aperture of a scene.
+/// Aperture of a scene, prepared for many skies and suns.
 pub(super) struct AperturePart {
     sky: Seen,
-    /// Values of the sky in the hours of a year, where the year is kept.
+    /// Illuminances through the patches in the hours of a year, where they are stored.
     year: Option<Arc<SkyYear>>,
-    /// Sunlit part of the aperture in these hours, behind boxes.
+    /// Sunlit part of the aperture in the hours of a year, behind boxes.
     sunlit: Option<Arc<SunlitYear>>,
-    /// Columns for every patch of the sky's samples, one for the ground and one for the skyline; behind boxes for the
-    /// luminances of a moment. Rows of all sensors for all diffuse light except regular transmission of an aperture
-    /// without obstructions, then for its interreflected part, the uncertainty of that part, and the uncertainty of
-    /// the interpolation where there is any: the fields of [`Sums`]. Single precision is 10⁻⁶ of the sums.
+    /// Table of daylight coefficients. Columns: one for every sky patch, one for the ground and one for the skyline;
+    /// behind boxes one for each luminance of the outside. Rows: all sensors for the diffuse light, except regular
+    /// transmission of an aperture without obstructions; then for its interreflected part, the uncertainty of that
+    /// part, and the uncertainty of the interpolation where there is any (the fields of [`Sums`]). Single precision is
+    /// 10⁻⁶ of the sums.
     tables: Mat<f32>,
-    /// Response of the sensors to light scattered by the system.
+    /// Response of the sensors to light that is scattered by the system.
     pub transport: Transport,
-    /// Regular transmittance of the system; `None` without one.
+    /// Regular transmittance of the system; `None` if it has none.
     pub regular: Option<AngularTransmittance>,
-    /// Method for the transmission of direct sunlight.
+    /// Method for the transmission of direct sunlight through the system.
     pub sun: SunWay,
-    /// Mean relative gap of flux of regular transmission.
+    /// Mean relative gap between flux through the aperture and flux found in the room, for regular transmission.
     pub gap: f64,
     /// Transmission factor of frame and dirt, 0–1.
     pub clear: f64,
 }
 
-/// View of the outside from an aperture.
+/// Description of what an aperture sees of the outside.
 enum Seen {
-    /// Patches that are the same at all points of an aperture; regular transmission by sensors.
+    /// Patches of the outside that are the same at all points of the aperture; regular transmission is evaluated sensor
+    /// by sensor.
     Alike {
         patches: Arc<SkyPatches>,
         straight: Vec<StraightView>,
-        /// Moments of what the sensors see in the hours of a year, where they are kept.
+        /// Moments of what the sensors see by regular transmission in the hours of a year, where they are stored.
         year: Option<Arc<SkyYear>>,
     },
-    /// Luminances seen past boxes.
+    /// Luminances of the outside past boxes, which differ between points of the aperture.
     Behind(Arc<Prepared>, Box<Past>),
 }
 
-/// Method by which the light of a sky is computed.
+/// Method by which the light of a sky is evaluated.
 #[derive(Clone, Copy)]
 pub(super) enum Way<'a> {
-    /// Fixed directions.
+    /// Luminances in fixed directions.
     Fixed,
-    /// Fixed directions with the values of an hour of the year, which are kept; with the sun of that hour.
+    /// Luminances in fixed directions for an hour of the year, which are stored; with the sun of that hour.
     Hour(usize, Option<&'a Sun>),
-    /// Integrals; with a session: a trial of the fixed directions, whose result is kept.
+    /// Integration; with a session it is a test of the fixed directions, whose result is stored.
     Exact(Option<&'a Session>),
 }
 
@@ -94,20 +96,20 @@ impl<'a> Way<'a> {
     }
 }
 
-/// Light of one sky, sensor by sensor. \[lx\]
+/// Illuminances under one sky, sensor by sensor. \[lx\]
 pub(super) struct Sums {
-    /// All diffuse light.
+    /// All diffuse light, direct and interreflected.
     pub total: Vec<f64>,
     /// Interreflected part of `total`.
     pub reflected: Vec<f64>,
     /// Uncertainty of `reflected`.
     pub reflected_uncertainty: Vec<f64>,
-    /// Uncertainty of the interpolation, signed.
+    /// Uncertainty by the interpolation between incident directions, with its sign.
     pub interpolated: Vec<f64>,
 }
 
 impl Sums {
-    /// Creates sums of no light at `sensors` sensors.
+    /// Creates illuminances of 0 at `sensors` sensors.
     pub fn dark(sensors: usize) -> Self {
         let dark = || vec![0.0; sensors];
         Self { total: dark(), reflected: dark(), reflected_uncertainty: dark(), interpolated: dark() }
@@ -115,7 +117,8 @@ impl Sums {
 }
 
 impl AperturePart {
-    /// Prepares an aperture. `behind`: obstructions, and a cache of direct light by aperture.
+    /// Prepares an aperture. `btdf`: transmission of its system; `behind`: obstructions in front of it, and a cache of
+    /// direct light by aperture.
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
@@ -192,23 +195,23 @@ impl AperturePart {
         })
     }
 
-    /// Whether the sun's light may leave the aperture as beams.
+    /// Whether sunlight may leave the aperture as beams.
     pub fn sends_beams(&self) -> bool {
         self.regular.is_some() || !matches!(self.sun, SunWay::Data)
     }
 
-    /// Returns the aperture's view past boxes; `None` without boxes.
+    /// Returns the aperture as prepared behind obstructions; `None` without obstructions.
     pub fn past(&self) -> Option<&Past> {
         if let Seen::Behind(_, past) = &self.sky { Some(past) } else { None }
     }
 
-    /// Returns the store of an hour's sunlit part; `None` where the year is not kept or the aperture has no
-    /// obstructions.
+    /// Returns the store for the sunlit part of the aperture in an hour of the year; `None` where the year is not
+    /// stored or the aperture has no obstructions.
     pub fn sunlit(&self, hour: Option<usize>) -> Option<&OnceLock<SunlitPart>> {
         self.sunlit.as_ref().zip(hour).map(|(year, hour)| &year[hour])
     }
 
-    /// Returns the number of luminances that are evaluated for a new sky.
+    /// Returns the number of directions in which the luminance of a new sky is evaluated.
     pub fn evaluations(&self) -> usize {
         match &self.sky {
             Seen::Alike { patches, straight, .. } => {
@@ -218,8 +221,8 @@ impl AperturePart {
         }
     }
 
-    /// Stores in `session` the values of the hours of a year on the aperture's patches. `year`: its number, and the
-    /// count of its hours.
+    /// Stores in `session` the light of the hours of a year on the patches of the aperture. `year`: a number that no
+    /// other year has, and the number of its hours.
     pub fn keep_year(&mut self, session: &Session, (scene, index): (&Scene, usize), year: (u64, usize)) {
         self.year = match &mut self.sky {
             Seen::Behind(prepared, _) => {
@@ -236,8 +239,8 @@ impl AperturePart {
         };
     }
 
-    /// Returns the light by the columns of the tables: illuminance through every patch, then the luminances of ground
-    /// and skyline; behind boxes all luminances.
+    /// Returns the input of the table's columns for one outside, frame and dirt included: illuminance through every
+    /// patch \[lx\], then the luminances of ground and skyline; behind boxes all luminances. \[cd/m²\]
     fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
         let sky = match &self.sky {
             Seen::Alike { patches, .. } => patches,
@@ -271,7 +274,7 @@ impl AperturePart {
         e
     }
 
-    /// Adds the diffuse light at every sensor to `out`. \[lx\]
+    /// Adds the diffuse illuminance through this aperture at every sensor to `out`. \[lx\]
     pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
         let light: Vec<f32> = self.light(outside, way).into_iter().map(|e| e as f32).collect();
         let mut all = vec![0.0_f32; scene.sensors.len()];
@@ -281,6 +284,8 @@ impl AperturePart {
         self.add_seen(scene, index, outside, way, out);
     }
 
+    /// Adds the illuminance by the outside that the sensors see by regular transmission, of apertures without
+    /// obstructions. \[lx\]
     fn add_seen(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
         let (Some(tau), Seen::Alike { straight, year, .. }) = (&self.regular, &self.sky) else { return };
         if !matches!(way, Way::Exact(_)) {
@@ -308,7 +313,7 @@ impl AperturePart {
         }
     }
 
-    /// Adds the diffuse light of many skies at every sensor, with the values from which its error follows.
+    /// Adds the diffuse illuminances of many skies at every sensor, with the values from which their errors follow.
     pub fn add_sums(&self, scene: &Scene, index: usize, skies: &[(&Outside, Way<'_>)], sums: &mut [Sums]) {
         for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
             let columns = skies.len().next_multiple_of(COLUMNS);
@@ -339,7 +344,8 @@ impl AperturePart {
     }
 }
 
-/// Returns the system of an aperture with its transmission of the sky, if its description covers the sky.
+/// Returns the optical model of an aperture's system with its transmission of sky and ground, if light of the sky is
+/// computed from the description; `None` for systems given by data.
 fn described_through<'a>(
     session: &Session,
     scene: &'a Scene,
@@ -350,8 +356,8 @@ fn described_through<'a>(
     Some((model, session.sky_through(model)))
 }
 
-/// Returns the light at the sensors through all patches, without direct light by regular transmission, and the gap of
-/// its flux.
+/// Returns the illuminances at the sensors per illuminance through each incident patch, without direct light by regular
+/// transmission; and the relative gap of flux of the interreflection.
 fn columns(
     opening: &Opening<'_>,
     transport: &Transport,
@@ -378,7 +384,8 @@ fn columns(
     Ok((columns, straight.map_or(0.0, |(_, views)| views.gap)))
 }
 
-/// Returns the tables of an aperture of which all points see the same patches.
+/// Returns the table of an aperture all of whose points see the same patches of the outside. `columns`: illuminances at
+/// the sensors by patch; `places`: number of sensors.
 fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
     let open = sky.samples.cells();
@@ -406,14 +413,15 @@ fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
     tables
 }
 
-/// Computes the views of a described system's light from the sensors.
+/// Computes the responses of the sensors to the light that a described system emits.
 fn described_views(opening: &Opening<'_>, model: &SystemModel) -> Result<DescribedViews, StudyError> {
     let normal = Dir::from_unit(DVec3::Z);
     let bands = model.0.profile_light(normal, Side::Front).map(|light| (light.upright, light.q.len()));
     DescribedViews::new(opening, bands)
 }
 
-/// Relative accuracy of light that is integrated instead of computed by fixed directions.
+/// Relative accuracy to which light is integrated that cannot be evaluated in fixed directions.
 const EXACT: f64 = 1e-5;
-/// Relative accuracy of integrals that fixed directions are compared with, which are off by some 1e-4 and more.
+/// Relative accuracy of the integrals with which fixed directions are compared; the error of these is some 1e-4 or
+/// more.
 const TRIED: f64 = 1e-4;

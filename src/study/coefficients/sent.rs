@@ -1,4 +1,5 @@
-//! Emergent light of a system by patch of its incident hemisphere, from data or description.
+//! Scattered light that a system emits for incident light through each patch of its incident hemisphere, from data or
+//! description.
 
 use super::transport::{ACROSS, TREE_SAMPLED};
 use crate::compute::basis::RingBasis;
@@ -14,43 +15,44 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Cells or bands with their luminance per illuminance. \[1/sr\]
+/// Emergent cells or bands of the profile angle, each with its luminance per illuminance of the aperture. \[1/sr\]
 pub(crate) type Luminances = Vec<(usize, f64)>;
 
-/// Emergent light of a system for light through each patch of its incident hemisphere.
+/// Scattered light that a system emits for incident light through each patch of its incident hemisphere.
 pub(crate) struct Sent {
-    /// Emergent cells of the system.
+    /// Basis of the emergent hemisphere.
     pub cells: Arc<RingBasis>,
-    /// Bands of the profile angle, where rows are by these: whether the angle is in the horizontal plane, and the
-    /// number of bands.
+    /// Bands of the profile angle, where the rows are by these: whether the angle is in the horizontal plane (vertical
+    /// structures), and the number of bands.
     pub bands: Option<(bool, usize)>,
-    /// Rows of light that many patches share.
+    /// Emergent distributions that many patches share, on cells or bands.
     pub rows: Vec<Luminances>,
-    /// Emergent light of every patch.
+    /// Emergent light for each incident patch.
     pub patches: Vec<Patch>,
 }
 
-/// Emergent light of one patch, per illuminance through it.
+/// Emergent light of a system for light through one incident patch, per illuminance through it.
 #[derive(Default)]
 pub(crate) struct Patch {
-    /// Light by cells.
+    /// Luminances of this patch alone, by emergent cell.
     pub own: Luminances,
-    /// Rows with the illuminance that each represents.
+    /// Shared distributions, by their indices in [`Sent::rows`], each with its factor.
     pub rows: Vec<(usize, f64)>,
 }
 
-/// Returns the cells that are not dark, with their values.
+/// Returns the cells with a value other than 0, each with its value.
 pub(super) fn lit(row: &[f64]) -> Luminances {
     row.iter().copied().enumerate().filter(|(_, q)| *q != 0.0).collect()
 }
 
 impl Sent {
-    /// Returns the number of cells and bands.
+    /// Returns the number of emergent cells and bands together.
     pub fn count(&self) -> usize {
         self.cells.len() + self.bands.map_or(0, |(_, count)| count)
     }
 
-    /// Returns the cell and the band of a direction; bands are numbered after the cells.
+    /// Returns the indices of the cell and the band that contain an emergent direction; bands are numbered after the
+    /// cells. `through`: incident direction whose undeviated light leaves in the emergent direction.
     pub fn index(&self, through: Dir<Facade>) -> [Option<usize>; 2] {
         let band = |(upright, count)| {
             self.cells.len() + ProfileLight::band(ProfileLight::angle_of(upright, through), count).min(count - 1)
@@ -58,7 +60,7 @@ impl Sent {
         [self.cells.index(through), self.bands.map(band)]
     }
 
-    /// Returns the luminance of all cells and bands per illuminance through a patch. \[1/sr\]
+    /// Returns the luminances of all emergent cells and bands per illuminance through an incident patch. \[1/sr\]
     pub fn through(&self, patch: usize) -> Vec<f64> {
         let mut all = vec![0.0; self.count()];
         let first = if self.bands.is_some() { self.cells.len() } else { 0 };
@@ -70,7 +72,7 @@ impl Sent {
         all
     }
 
-    /// Creates the light of a described system.
+    /// Creates the emergent light of a described system.
     pub fn described(through: &SkyThrough) -> Self {
         let (bands, rows) = match through.rows() {
             ScatteredRows::None => (None, Vec::new()),
@@ -83,8 +85,8 @@ impl Sent {
         Self { cells: Arc::clone(through.basis()), bands, rows, patches: patches.collect() }
     }
 
-    /// Creates the light of a system given by data, on the patches that suit them ([`super::transport::patches`]);
-    /// `None` where nothing is scattered.
+    /// Creates the emergent light of a system given by data, for the patches that suit them
+    /// ([`super::transport::patches`]); `None` where nothing is scattered.
     pub fn of_data(session: &Session, btdf: &Btdf, interpolation: Interpolation, patches: &RingBasis) -> Option<Self> {
         let single = |row: usize, share: f64| Patch { own: Vec::new(), rows: vec![(row, share)] };
         let sent = |cells: &RingBasis, rows: Vec<Luminances>, patches: Vec<Patch>| {

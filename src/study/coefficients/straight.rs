@@ -1,7 +1,7 @@
-//! Outside that sensors see by regular transmission of a system.
+//! Outside that the sensors see through an aperture by regular transmission.
 //!
-//! Directions are chosen for every sensor; their luminances are summed as moments over the cosine of incidence. These
-//! depend on the aperture alone, so that one year of them serves every system behind it.
+//! Directions are chosen for every sensor; their luminances are summed as moments over the cosine of the angle of
+//! incidence. The moments depend on the aperture alone, so that those of one year serve every system in it.
 
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::direction::{Dir, World};
@@ -15,38 +15,37 @@ use crate::study::scene::Scene;
 use crate::study::session::far::{self, Constants};
 use std::hash::{Hash, Hasher};
 
-/// Minimum number of Gauss points along each side of a piece of the outside that a sensor sees by regular
-/// transmission.
+/// Minimum number of Gauss points along each side of a piece of the outside that a sensor sees by regular transmission.
 const POINTS: usize = 4;
 
-/// Maximum number of moments of a sensor. τ(θ) is approximated by a polynomial of cosθ of one degree less; the
-/// remainder is orthogonal to all these polynomials, and a sky is nearly one of them: the light behind panes is off by
-/// 10⁻⁷, by a table of ten angles by 10⁻⁵.
+/// Maximum number of moments of a sensor. τ(θ) is approximated by a polynomial of cos θ of one degree less; the
+/// remainder is orthogonal to all these polynomials, and the luminance of a sky is nearly one of them. The relative
+/// error of the illuminance is 10⁻⁷ behind panes, and 10⁻⁵ for a table of ten angles.
 const MOMENTS: usize = 8;
 
-/// Share of the initial sum of squares below which a polynomial of the recurrence is only rounding.
+/// Share of the initial sum of squares below which a polynomial of the recurrence consists of rounding errors only.
 const NOTHING_NEW: f64 = 1e-20;
 
-/// Relative accuracy of the columns of ground and skyline.
+/// Relative accuracy of the illuminances by ground and skyline.
 const RELATIVE: f64 = 1e-7;
 
-/// Outside as one sensor sees it by regular transmission.
+/// Outside as one sensor sees it through an aperture by regular transmission.
 #[derive(Default)]
 pub(super) struct StraightView {
     directions: Vec<Dir<World>>,
-    /// Number of polynomials.
+    /// Number of moments of the sensor, one for each polynomial.
     moments: usize,
-    /// Values of the polynomials, direction by direction: orthonormal over the sensor's directions, times the weight
-    /// of the direction without the system. \[sr^½\]
+    /// Values of the polynomials, direction by direction: orthonormal over the sensor's directions, times the weight of
+    /// the direction without the system. \[sr^½\]
     functions: Vec<f64>,
-    /// Share of every moment in the illuminance, by the system.
+    /// Factors by which the moments give the illuminance behind the system.
     shares: Vec<f64>,
     ground: f64,
     skyline: f64,
 }
 
 impl StraightView {
-    /// Creates the view through an aperture of the scene whose regular transmittance is `tau`.
+    /// Creates the view of a sensor through an aperture of the scene. `tau`: regular transmittance of its system.
     pub fn new(
         scene: &Scene,
         index: usize,
@@ -85,7 +84,8 @@ impl StraightView {
         Self { ground, skyline, ..Self::of(&samples, |seen| factor * passed(seen)) }
     }
 
-    /// Creates the view of the sky alone; `passed`: returns the light through a direction, per luminance \[sr\].
+    /// Creates the view of the sky alone, without ground and skyline. `passed`: illuminance at the sensor per luminance
+    /// in a direction \[sr\].
     fn of(samples: &[Seen], passed: impl Fn(&Seen) -> f64) -> Self {
         let polynomials = orthonormal(samples);
         let share = |p: &Vec<f64>| p.iter().zip(samples).map(|(p, seen)| p * passed(seen)).sum();
@@ -100,24 +100,26 @@ impl StraightView {
         }
     }
 
-    /// Returns the number of luminances that are evaluated for a new sky.
+    /// Returns the number of directions in which the luminance of a new sky is evaluated.
     pub fn directions(&self) -> usize {
         self.directions.len()
     }
 
-    /// Returns the number of moments.
+    /// Returns the number of moments of the sensor: sums of luminances weighted by polynomials, from which its
+    /// illuminance follows.
     pub fn moments(&self) -> usize {
         self.moments
     }
 
-    /// Feeds a hasher with the values that distinguish this aperture from others, whatever the system.
+    /// Feeds a hasher with the values that distinguish this aperture from others, independent of the system.
     pub fn hash(&self, hasher: &mut impl Hasher) {
         self.moments.hash(hasher);
         self.directions.iter().for_each(|d| d.vector().to_array().map(f64::to_bits).hash(hasher));
         self.functions.iter().for_each(|f| f.to_bits().hash(hasher));
     }
 
-    /// Adds the moments of a sky to the list.
+    /// Appends the sensor's moments of a sky to a list: sums of the luminances in its directions, weighted by each of
+    /// its polynomials.
     pub fn gather(&self, outside: &Outside, list: &mut Vec<f64>) {
         let first = list.len();
         list.resize(first + self.moments, 0.0);
@@ -128,25 +130,25 @@ impl StraightView {
         }
     }
 
-    /// Returns the illuminance at the sensor. `moments`: those of all sensors from this one on, of which its own are
-    /// consumed. \[lx\]
+    /// Returns the illuminance at the sensor by the outside seen through the aperture \[lx\]. `moments`: moments of
+    /// this sensor and all following ones, of which its own are consumed.
     pub fn light(&self, outside: &Outside, moments: &mut impl Iterator<Item = f64>) -> f64 {
         let sky: f64 = self.shares.iter().zip(moments).map(|(share, moment)| share * moment).sum();
         sky + self.ground * outside.ground_luminance() + self.skyline * far::luminance(outside)
     }
 }
 
-/// Direction in which a sensor sees the outside.
+/// Direction in which a sensor sees the outside through an aperture.
 struct Seen {
     direction: Dir<World>,
     /// Cosine of the angle of incidence on the aperture.
     cosine: f64,
-    /// Solid angle times the sensor's cosine. \[sr\]
+    /// Solid angle that the direction represents, times the cosine at the sensor. \[sr\]
     weight: f64,
 }
 
-/// Returns polynomials of the cosine of incidence, their values by direction, that are orthonormal over the weights
-/// (Stieltjes' recurrence, each made orthogonal to all before it).
+/// Returns polynomials of the cosine of incidence, as values by direction, that are orthonormal with the weights of the
+/// directions (Stieltjes' recurrence, each made orthogonal to all before it).
 fn orthonormal(samples: &[Seen]) -> Vec<Vec<f64>> {
     let inner =
         |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).zip(samples).map(|((a, b), s)| a * b * s.weight).sum() };
@@ -170,7 +172,8 @@ fn orthonormal(samples: &[Seen]) -> Vec<Vec<f64>> {
     list
 }
 
-/// Computes the illuminance at one sensor by the outside through the aperture, as an integral. \[lx\]
+/// Computes the illuminance at one sensor by the outside seen through an aperture by regular transmission, as an
+/// integral over its solid angle. `relative`: relative accuracy. \[lx\]
 pub(super) fn seen_exactly(
     scene: &Scene,
     index: usize,

@@ -1,5 +1,5 @@
-//! Transmission of direct sunlight through a system: by the description, by beams extracted from the data's cells, or
-//! by the data's own cells and directions.
+//! Transmission of direct sunlight through a system: by its description, by beams extracted from patch-averaged data,
+//! or by the data's own cells and directions.
 
 use super::described::{ByAngle, DescribedViews, Lattice, relative_error};
 use super::views::{Opening, Views, Want};
@@ -12,21 +12,22 @@ use crate::study::system::SystemModel;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Number of suns from which on their light is interpolated between directions, which are fewer than the suns then.
+/// Number of sun positions from which on scattered sunlight is interpolated between directions, which are then fewer
+/// than the sun positions.
 const MANY: usize = 120;
 
-/// Method for the transmission of direct sunlight through one aperture.
+/// Method for the transmission of direct sunlight through the system of one aperture.
 pub(super) enum SunWay {
-    /// Cells or directions of the data, with regular transmission as the data separate it.
+    /// Cells or directions of the data as given, with regular transmission as far as the data separate it.
     Data,
-    /// Description of the system.
+    /// Description of the system, evaluated for the direction of the sun.
     Described(Box<ByDescription>),
-    /// Beams extracted from the data's cells, the remaining light on the cells.
+    /// Beams extracted from patch-averaged data; the remaining light is emitted by the data's cells.
     Peaks(Box<InCells>),
 }
 
-/// Description of a system, with the method for its scattered light for many suns: by the profile angle where the
-/// light depends on nothing else, or else interpolated between directions.
+/// Description of a system, with the method for its scattered light under many suns: by the profile angle, where the
+/// scattering depends on nothing else, or else interpolated between directions.
 pub(super) struct ByDescription {
     model: SystemModel,
     views: DescribedViews,
@@ -34,36 +35,37 @@ pub(super) struct ByDescription {
     lattice: Lattice,
 }
 
-/// Patch-averaged data with the beams in them.
+/// Patch-averaged data from which beams are extracted.
 pub(super) struct InCells {
     matrix: CellMatrix,
     views: Views,
-    /// Beams by incident cell of the sun, where there are too many cells to examine all of them; all others under 0.
+    /// Extracted beams, by incident cell of the sun where there are too many cells to examine all of them; otherwise
+    /// all under key 0.
     known: Mutex<BTreeMap<usize, Arc<Peaks>>>,
 }
 
-/// Direct sunlight behind a system.
+/// Direct sunlight behind a system: as beams, and as scattered light at the sensors.
 pub(super) struct SunLight {
-    /// Light that leaves as beams.
+    /// Beams in which sunlight leaves the system.
     pub beams: Vec<BeamLight>,
-    /// Luminance of the data's cells by scattered light, where it was computed for the actual sun position; else
-    /// empty. \[cd/m²\]
+    /// Luminances of the data's emergent cells by scattered sunlight, where they were computed for the actual sun
+    /// position; else empty. \[cd/m²\]
     pub cells: Vec<f64>,
-    /// Scattered light at the sensors: three rows as in [`Views`], all light, its interreflected part and the
-    /// uncertainty of that part. \[lx\]
+    /// Illuminances at the sensors by scattered sunlight: three rows as in [`Views`], for all light, its interreflected
+    /// part and the uncertainty of that part. \[lx\]
     pub light: Vec<f64>,
-    /// Errors of the scattered light at the sensors. \[lx\]
+    /// Errors of the illuminances at the sensors by scattered sunlight. \[lx\]
     pub errors: Vec<f64>,
 }
 
 impl SunWay {
-    /// Whether the regular transmission that the data separate is missing among the beams.
+    /// Whether regular transmission that the data separate is not among the computed beams and has to be added.
     pub const fn leaves_regular(&self) -> bool {
         matches!(self, Self::Peaks(_))
     }
 
-    /// Chooses the method for one aperture. `described`: model of a described system, its views, and its light by
-    /// profile angle where it scatters by that.
+    /// Chooses the method for one aperture. `described`: optical model of a described system, responses of the sensors
+    /// to its light, and its scattered light by profile angle where it depends on that angle alone.
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
@@ -85,8 +87,8 @@ impl SunWay {
         }
     }
 
-    /// Computes the light of a sun in front of an aperture, one of `suns` suns; `None` where the data's own cells are
-    /// to be used.
+    /// Computes the light behind the system for a sun in front of the aperture; `None` if the data's own cells are to
+    /// be used. `suns`: total number of sun positions.
     pub fn light(&self, facing: &Facing<'_>, suns: usize, sensors: usize) -> Option<SunLight> {
         match self {
             Self::Data => None,
@@ -98,7 +100,7 @@ impl SunWay {
 }
 
 impl ByDescription {
-    /// Computes the light at the sensors for the actual sun position, without interpolation.
+    /// Computes beams and scattered light for the actual sun position, without interpolation.
     fn exact_sun(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
         let through = SunThrough::new(self.model.0.as_ref(), facing);
         let mut sum = SunLight::of(&through, sensors);
@@ -119,7 +121,7 @@ impl ByDescription {
         sum
     }
 
-    /// Computes beams for the actual sun position and scattered light by interpolation between known directions.
+    /// Computes beams for the actual sun position, and scattered light by interpolation between incident directions.
     fn between(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
         let model = self.model.0.as_ref();
         let mut sum = SunLight::of(&SunThrough::beams_alone(model, facing), sensors);
@@ -140,7 +142,7 @@ impl SunLight {
         Self { beams: Vec::new(), cells: Vec::new(), light: vec![0.0; 3 * sensors], errors: vec![0.0; sensors] }
     }
 
-    /// Creates the light with beams and without scattered light.
+    /// Creates direct sunlight with the beams of a described system and without scattered light.
     fn of(through: &SunThrough, sensors: usize) -> Self {
         Self { beams: through.beams().to_vec(), ..Self::dark(sensors) }
     }
@@ -161,6 +163,7 @@ impl InCells {
         Some(peaks)
     }
 
+    /// Computes extracted beams and the remaining scattered light, with its errors.
     fn light(&self, facing: &Facing<'_>, sensors: usize) -> SunLight {
         let mut sum = SunLight::dark(sensors);
         let Some(sun) = self.peaks(facing).and_then(|peaks| peaks.sun(facing)) else { return sum };

@@ -1,4 +1,5 @@
-//! V·T: light at every sensor per illuminance of an aperture from one incident direction or cell.
+//! V·T: illuminance at every sensor per illuminance of an aperture from one incident direction or through one incident
+//! patch.
 
 use super::described::Described;
 use super::views::{Opening, SensorRows, Views, Want, even};
@@ -14,60 +15,65 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Size of the patches where the system defines none. \[rad\]
+/// Size of the incident patches for systems whose data do not define any. \[rad\]
 const PATCH: f64 = 4.5 * PI / 180.0;
-/// Maximum number of incident cells of a tree that is evaluated by its own cells; larger ones are evaluated by
-/// sub-patches.
+/// Maximum number of incident cells of a tensor tree that is evaluated by its own cells; trees with more are evaluated
+/// on sub-patches.
 const TREE_CELLS: usize = 4096;
-/// Maximum number of incident cells of a tree that is evaluated at four points of each; larger ones only at the middle
-/// of each.
+/// Maximum number of incident cells of a tensor tree that is evaluated at four points of each cell; trees with more are
+/// evaluated at the centres only.
 pub(super) const TREE_SAMPLED: usize = 1024;
-/// Size of the sub-patches where the light of lobes is interpolated. \[rad\]
+/// Size of the incident patches on which lobes are interpolated. \[rad\]
 const SUB_PATCH: f64 = 2.5 * PI / 180.0;
-/// Maximum distance of directions in cells that are as wide as a dataset's. \[rad\]
+/// Maximum distance between the directions in which a sky is evaluated, for incident patches as wide as those of
+/// datasets. \[rad\]
 pub(crate) const SPACING: f64 = 4.0 * PI / 180.0;
-/// Number of Gauss points for τ across a ring.
+/// Number of Gauss points in θ for the mean of τ over a ring of patches.
 pub(super) const ACROSS: usize = 3;
-/// Relative error of a tree by the straightening of its cells into rings.
+/// Relative error of the illuminances behind a tensor tree, because its square cells are replaced by cells of rings.
 const TREE_CELL_ERROR: f64 = 5e-3;
 
-/// Response of the sensors to light scattered by a system.
+/// Response of the sensors to light that the system of one aperture scatters.
 pub(super) enum Transport {
     /// System that scatters nothing.
     Straight,
-    /// Lambertian system: τ, and the light at the sensors of a uniform luminance of 1.
+    /// Lambertian system: its transmittance τ, and the illuminances at the sensors for a uniform luminance of 1 cd/m².
     Even(AngularTransmittance, SensorRows),
-    /// Incident cells, with the light at the sensors for each.
+    /// Patch-averaged data: basis of incident cells, with the illuminances at the sensors per illuminance through each.
     Cells(RingBasis, Vec<SensorRows>),
-    /// List of directions of which the nearest is used, with the light at the sensors for each.
+    /// Data at single directions of which the nearest is used, with the illuminances at the sensors per illuminance
+    /// from each.
     Nearest(Arc<Indicatrices>, Vec<SensorRows>),
-    /// Lobes, interpolated between directions.
+    /// Data at single directions between which lobes are interpolated.
     Lobes(Box<Lobes>),
-    /// Tensor tree and the views of its emergent cells.
+    /// Tensor tree, with the responses of the sensors to the luminances of its emergent cells.
     Tree(Box<TensorTree>, Views),
-    /// Described system.
+    /// System given by its description.
     Described(Box<Described>),
 }
 
-/// Lobes that move with the incident direction: the fixed bases as light at the sensors, the lobes by their cells.
+/// Lobes that move with the incident direction. Light that does not move (the bases) is stored as illuminances at the
+/// sensors, the lobes are evaluated by emergent cells.
 pub(super) struct Lobes {
     interpolator: Arc<Interpolator>,
     bases: Vec<SensorRows>,
     views: Views,
-    /// Views of the finer cells for the sun; `None` where the data's own are as good.
+    /// Responses of the sensors to luminances on finer cells, for the sun; `None` where the data's cells are as good.
     fine: Option<Views>,
 }
 
-/// Light at the sensors from one incident direction, per illuminance of the aperture. \[lx/lx\]
+/// Illuminances at the sensors for light from one incident direction, per illuminance of the aperture. \[lx/lx\]
 pub(super) struct Column {
-    /// Light in three rows, see [`SensorRows`].
+    /// Illuminances in three rows (all light, its interreflected part, the uncertainty of that part), see
+    /// [`SensorRows`].
     pub light: SensorRows,
-    /// Difference of a simpler interpolation, signed; empty where there is none.
+    /// Difference between a simpler interpolation of the data and the one used, with its sign, by sensor: measure of
+    /// the uncertainty by interpolation. Empty where nothing is interpolated.
     pub difference: Vec<f64>,
 }
 
-/// Returns the division of the incident hemisphere that suits a system, and the maximum distance of directions in it.
-/// \[rad\]
+/// Returns the basis of the incident hemisphere that suits a system's data, and the maximum distance between the
+/// directions in which a sky is evaluated on it. \[rad\]
 pub(crate) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, f64) {
     match &btdf.scattered {
         None | Some(Scattered::Lambert(_)) => (sub_patches(PATCH), SPACING),
@@ -83,13 +89,15 @@ pub(crate) fn patches(btdf: &Btdf, interpolation: Interpolation) -> (RingBasis, 
     }
 }
 
-/// Returns a direction in a cell, given by shares of its range of sin²θ and of its width.
+/// Returns an incident direction in a cell. `s`: position in its range of sin²θ, 0 … 1; `t`: offset in azimuth from its
+/// middle, as a share of its width.
 pub(super) fn within(cell: &Cell, (s, t): (f64, f64)) -> Dir<Facade> {
     let (a, b) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     Dir::from_theta_phi((a + (b - a) * s).sqrt().asin(), cell.phi + t * cell.width)
 }
 
-/// Computes the light at the sensors for every row of a system's data.
+/// Computes the illuminances at the sensors for every row of a system's data. `views`: responses of the sensors to
+/// emergent luminances; `row`: luminances per illuminance in a row. \[1/sr\]
 fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -> Vec<SensorRows> {
     let light = |i: usize| {
         let mut light = vec![0.0; views.width()];
@@ -100,7 +108,7 @@ fn lights(views: &Views, count: usize, row: impl Fn(usize) -> Vec<f64> + Sync) -
 }
 
 impl Transport {
-    /// Computes the response of the sensors to one aperture's system.
+    /// Computes the response of the sensors to the scattered light of an aperture's system.
     pub fn new(opening: &Opening<'_>, btdf: &Btdf) -> Result<Self, StudyError> {
         let Opening { session, scene, .. } = *opening;
         let views = |basis: &RingBasis, want: Want| Views::new(opening, Arc::new(basis.clone()), want);
@@ -137,7 +145,8 @@ impl Transport {
         })
     }
 
-    /// Returns the relative error of the light.
+    /// Returns an estimate of the relative error of the computed illuminances that other stated errors do not contain:
+    /// of interpolated lobes, of a tensor tree's cells, or of a description; 0 for other data.
     pub fn relative_error(&self) -> f64 {
         match self {
             Self::Lobes(_) => REST,
@@ -147,12 +156,13 @@ impl Transport {
         }
     }
 
-    /// Whether the columns contain the uncertainty of the diffuse light on the data's patches.
+    /// Whether [`Column::light`] contains the uncertainty of diffuse light by the data, so that it need not be added.
     pub fn estimates_uncertainty(&self) -> bool {
         matches!(self, Self::Lobes(_))
     }
 
-    /// Computes the light through a patch of [`patches`].
+    /// Computes the illuminances at the sensors per illuminance through the incident patch `cell`, which has the index
+    /// `index` in the basis of [`patches`].
     pub fn through_patch(&self, index: usize, cell: &Cell, sensors: usize) -> Column {
         match self {
             Self::Even(tau, even) => {
@@ -175,7 +185,8 @@ impl Transport {
         }
     }
 
-    /// Computes the light from one direction, the sun's.
+    /// Computes the illuminances at the sensors per illuminance of the aperture from one incident direction, such as
+    /// that of the sun.
     pub fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         match self {
             Self::Straight => Column::dark(sensors),
@@ -199,8 +210,9 @@ impl Transport {
         }
     }
 
-    /// Adds the light of the sun like [`Self::for_direction`], but with lobes on finer cells, where only the first row
-    /// is computed.
+    /// Adds the illuminances at the sensors by the sun in the incident direction `d` to `out` \[lx\]. `illuminance`:
+    /// illuminance of the aperture by the sun \[lx\]. Unlike [`Self::for_direction`], it evaluates lobes on finer
+    /// cells; then only the first row (all light) is added.
     pub fn sun(&self, d: Dir<Facade>, sensors: usize, out: &mut [f64], illuminance: f64) {
         match self {
             Self::Lobes(lobes) if lobes.fine.is_some() => lobes.sun(d, out, illuminance),
@@ -213,6 +225,8 @@ impl Transport {
 }
 
 impl Lobes {
+    /// Computes the illuminances at the sensors per illuminance from an incident direction, as the sum of bases and
+    /// lobes.
     fn for_direction(&self, d: Dir<Facade>, sensors: usize) -> Column {
         let mut column = Column::dark(sensors);
         column.difference = vec![0.0; sensors];
@@ -236,6 +250,8 @@ impl Lobes {
         column
     }
 
+    /// Adds the illuminances at the sensors by the sun in the incident direction `d` to `out` \[lx\], with lobes on the
+    /// finer cells. `illuminance`: illuminance of the aperture by the sun. \[lx\]
     fn sun(&self, d: Dir<Facade>, out: &mut [f64], illuminance: f64) {
         let (model, grid) = (self.interpolator.model(), self.interpolator.sun_grid());
         let recipe = model.recipe(d);
@@ -253,7 +269,7 @@ impl Lobes {
     }
 }
 
-/// Number of points along each side of a cell at which a lobe of the sun is evaluated.
+/// Number of points along each side of an emergent cell at which a lobe of the sun is evaluated.
 const SUN_POINTS: usize = 2;
 
 impl Column {

@@ -1,4 +1,4 @@
-//! V: light at every sensor per luminance of every emergent cell of an aperture, directly and through the room.
+//! V: illuminance at every sensor per luminance of every emergent cell of an aperture, directly and by interreflection.
 
 use crate::compute::basis::{Resampling, RingBasis};
 use crate::compute::dot::add_scaled;
@@ -15,39 +15,43 @@ use crate::study::session::responses::{Reflected, Responses};
 use crate::study::session::seen_cells::SeenCells;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Three rows of one number per sensor, one after the other: all light, its interreflected part, and the uncertainty
-/// of that part.
+/// Illuminances at the sensors in three rows, one after the other, each with one number per sensor: all light, its
+/// interreflected part, and the uncertainty of that part.
 pub(super) type SensorRows = Vec<f64>;
 
-/// Maximum number of divisions into bands whose shares in cells are kept; the oldest is dropped.
+/// Maximum number of divisions into bands for which the shares of bands in cells are stored; the oldest is dropped.
 const MOST_BANDS: usize = 4;
 
-/// Light at the sensors per luminance of every cell of a basis.
+/// Illuminances at the sensors per luminance of every emergent cell of a basis, or of every band of the profile angle.
+/// \[lx per cd/m²\]
 pub(super) struct Views {
     width: usize,
     sensors: usize,
-    /// Direct light, the same for all systems.
+    /// Direct illuminances, which are the same for all systems; `None` if not requested.
     straight: Option<Arc<SeenCells>>,
-    /// Interreflected light; `None` without interreflection.
+    /// Interreflected illuminances; `None` without interreflection.
     reflected: Option<Reflections>,
-    /// Mean relative gap of flux before it was closed.
+    /// Mean relative gap between the flux of a cell and the flux found on the surfaces of the room, before it was
+    /// closed.
     pub gap: f64,
 }
 
-/// Interreflected light per luminance of cells.
+/// Interreflected illuminances at the sensors per luminance of emergent cells.
 struct Reflections {
-    /// Light sensor by sensor, followed by its uncertainties where all rows are requested; cell by cell.
+    /// Illuminances cell by cell: all sensors, followed by their uncertainties where these are requested.
     rows: Vec<f32>,
     width: usize,
-    /// Rule by which these cells follow from those of the basis, where these are too many for the room's patches.
+    /// Merging by which luminances of the basis become luminances of these cells, where the basis has more cells than
+    /// the room can distinguish.
     merging: Option<Merging>,
 }
 
-/// Merging of many cells into those that a room can distinguish.
+/// Merging of many emergent cells into those that the room can distinguish.
 struct Merging {
     onto: Arc<Resampling>,
     cells: usize,
-    /// Merged cells of each cell, with their shares of its luminance; computed when single cells are requested.
+    /// Merged cells to which each cell contributes, with the factors of its luminance; computed when single cells are
+    /// requested.
     by_cell: OnceLock<Vec<Vec<(usize, f64)>>>,
 }
 
@@ -64,41 +68,42 @@ impl Merging {
     }
 }
 
-/// Requested rows of the light.
+/// Requested rows of the illuminances.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Want {
-    /// All light as a [`SensorRows`].
+    /// All three rows of [`SensorRows`].
     All,
-    /// First row of the [`SensorRows`] alone.
+    /// Only the first row of [`SensorRows`]: all light.
     Sum,
-    /// Interreflected light as a [`SensorRows`], without direct light.
+    /// All three rows of [`SensorRows`] by interreflected light alone, without direct light.
     Reflected,
 }
 
-/// Aperture of a scene whose light is followed to the sensors.
+/// Aperture of a scene whose effect on the sensors is computed, with the means of the computation.
 #[derive(Clone, Copy)]
 pub(super) struct Opening<'a> {
     pub session: &'a Session,
     pub scene: &'a Scene,
-    /// Number of the aperture, from 0.
+    /// Index of the aperture in the scene, from 0.
     pub index: usize,
-    /// Responses of the room; `None` without interreflection.
+    /// Responses of the room to light on its surfaces; `None` without interreflection.
     pub room: Option<&'a Responses>,
-    /// Nodes of the aperture: if given, interreflected light is computed node by node, for light that is 1 at one of
-    /// them and 0 at the others, without direct light.
+    /// Nodes of the aperture. If given, interreflected light is computed for each node, for light that is 1 at that
+    /// node and falls to 0 at the others; direct light is left out.
     pub nodes: Option<&'a Nodes>,
     pub progress: &'a dyn Progress,
 }
 
 impl Opening<'_> {
-    /// Returns the number of sensors times that of nodes; the order is node by node, sensor by sensor.
+    /// Returns the number of illuminances in a row: sensors, times nodes if there are any (node by node, sensor by
+    /// sensor).
     pub fn places(&self) -> usize {
         self.scene.sensors.len() * self.nodes.map_or(1, Nodes::count)
     }
 }
 
 impl Views {
-    /// Computes the light of the cells of a basis.
+    /// Computes the illuminances at the sensors per luminance of each cell of an emergent basis. \[lx per cd/m²\]
     pub fn new(opening: &Opening<'_>, basis: Arc<RingBasis>, want: Want) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, nodes, progress } = *opening;
         let sensors = opening.places();
@@ -129,8 +134,8 @@ impl Views {
         Ok(Self { width, sensors, straight, reflected, gap })
     }
 
-    /// Computes the light of bands of the profile angle instead of cells. `upright`: whether the angle is in the
-    /// horizontal plane; `bands`: their number.
+    /// Computes the illuminances at the sensors per luminance of bands of the profile angle instead of cells.
+    /// `upright`: whether the profile angle is in the horizontal plane (vertical structures); `bands`: their number.
     pub fn of_bands(opening: &Opening<'_>, (upright, bands): (bool, usize)) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, nodes, progress } = *opening;
         let sensors = opening.places();
@@ -161,12 +166,12 @@ impl Views {
         Ok(Self { width: 3 * sensors, sensors, straight, reflected, gap })
     }
 
-    /// Returns the count of numbers per cell.
+    /// Returns the number of values in a [`SensorRows`] of the requested rows.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Adds the light of a cell of the given luminance.
+    /// Adds the illuminances by one emergent cell of the given luminance \[cd/m²\] to `out`. \[lx\]
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
         if let Some(straight) = &self.straight {
             straight.add(cell, luminance, out);
@@ -183,7 +188,8 @@ impl Views {
         }
     }
 
-    /// Adds the light of an indicatrix, luminances of all cells; one without values is dark.
+    /// Adds the illuminances by a whole indicatrix to `out` \[lx\]. `luminance`: luminances of all emergent cells
+    /// \[cd/m²\]; empty for a dark one.
     pub fn add_all(&self, luminance: &[f64], out: &mut [f64]) {
         if let Some(straight) = &self.straight {
             for (cell, &l) in luminance.iter().enumerate().filter(|(_, l)| **l != 0.0) {
@@ -200,7 +206,7 @@ impl Views {
         self.add_reflected(&sum, 1.0, out);
     }
 
-    /// Adds a row of interreflected light to all light and to the interreflected part.
+    /// Adds a row of interreflected illuminances, times `factor`, to all light and to the interreflected part.
     fn add_reflected<T: Copy + Into<f64>>(&self, row: &[T], factor: f64, out: &mut [f64]) {
         add_scaled(&mut out[..self.sensors], row, factor);
         if self.width > self.sensors {
@@ -209,11 +215,11 @@ impl Views {
     }
 }
 
-/// Bands that the mean of every merged cell consists of, with their shares.
+/// Bands of the profile angle that contribute to the mean luminance of every merged cell, with their shares.
 type BandShares = Vec<Vec<(usize, f64)>>;
 
-/// Returns the shares of `bands` bands in every merged cell, which are the same for all systems and states; computed
-/// or kept.
+/// Returns the shares of bands of the profile angle in every merged cell, which are the same for all systems and
+/// states; computed or stored.
 fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
     type Known = ((bool, usize), Arc<BandShares>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
@@ -230,7 +236,7 @@ fn band_shares(upright: bool, bands: usize) -> Arc<BandShares> {
     made
 }
 
-/// Computes the light at the sensors of an aperture of uniform luminance 1.
+/// Computes the illuminances at the sensors by an aperture of uniform luminance 1 cd/m². \[lx\]
 pub(super) fn even(opening: &Opening<'_>) -> Result<SensorRows, StudyError> {
     let Opening { session, scene, index, room, nodes, progress } = *opening;
     let places = opening.places();

@@ -1,10 +1,11 @@
-//! Scene of a candidate.
+//! Scenes of the candidates of a comparison.
 
 use crate::study::scene_file::{CompareKeys, SceneFile, SystemKeys};
 use crate::study::scene_words;
 use crate::texts::words as texts;
 
-/// Returns the scene of a candidate: parts that its keys do not name are as in `scene`. It has no candidates itself.
+/// Returns the scene of a candidate: `scene` with the parts that `keys` name replaced. Its own list of candidates is
+/// empty.
 pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
     let CompareKeys { name: _, system, control, sky, site, room, aperture, sensors } = keys;
     let mut scene = SceneFile { compare: Vec::new(), ..scene.clone() };
@@ -34,7 +35,8 @@ pub fn candidate(scene: &SceneFile, keys: &CompareKeys) -> SceneFile {
     scene
 }
 
-/// Whether two scenes have the same input of the light. Their comparison lists do not count.
+/// Whether two scenes give the same illuminances: all keys agree except those of annual simulation, ranking and
+/// comparison.
 pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
     let SceneFile {
         room,
@@ -55,7 +57,7 @@ pub fn same_question(a: &SceneFile, b: &SceneFile) -> bool {
         && (sensors, control) == (&b.sensors, &b.control)
 }
 
-/// Returns the name of a candidate: its given name, else that of its system.
+/// Returns the label of a candidate: its given name, else that of its system.
 pub fn label(keys: &CompareKeys) -> String {
     if !keys.name.trim().is_empty() {
         return keys.name.trim().to_owned();

@@ -10,7 +10,7 @@ use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::texts::compare as texts;
 use std::f64::consts::FRAC_PI_2;
 
-/// Steps of γ and of profile angles. \[°\]
+/// Step of the curves in γ and in profile angle. \[°\]
 const STEP: i32 = 1;
 
 fn plot(x: Axis, name: &str, unit: &'static str, mut series: Vec<Series>) -> Plot {
@@ -25,8 +25,8 @@ fn plot(x: Axis, name: &str, unit: &'static str, mut series: Vec<Series>) -> Plo
     Plot { x, y: Axis::linear([low, high + reach], name, Unit::Named(unit)), series, guides: Vec::new() }
 }
 
-/// Returns the plots of scattered luminous intensity against γ in the planes C0–C180 and C90–C270; γ counts negative
-/// towards C180 and C270.
+/// Returns the plots of the scattered luminous intensities of several candidates against γ, in the planes C0–C180 and
+/// C90–C270; γ is negative towards C180 and C270. `list`: labels and distributions.
 pub fn of_lids(list: &[(String, &Lid)]) -> [Plot; 2] {
     [0.0_f64, 90.0].map(|c| {
         let series = list.iter().map(|(name, lid)| {
@@ -44,18 +44,19 @@ pub fn of_lids(list: &[(String, &Lid)]) -> [Plot; 2] {
     })
 }
 
-/// Sensors of a room on a grid.
+/// Illuminances of a candidate at sensors on a grid.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid<'a> {
-    /// Depth of the room. \[m\]
+    /// Depth of the room, perpendicular to the façade. \[m\]
     pub depth: f64,
-    /// Number of sensors along x and y.
+    /// Numbers of sensors along x and y.
     pub count: [usize; 2],
-    /// Illuminances, x running fastest. \[lx\]
+    /// Illuminances at the sensors, x running fastest. \[lx\]
     pub values: &'a [Estimate],
 }
 
-/// Returns the plot of illuminance along the depth in the middle row of sensors, with the band of its errors.
+/// Returns the plot of illuminance against the distance from the façade, in the middle row of sensors of each
+/// candidate, with its errors as a band.
 pub fn of_rooms(list: &[(String, Grid<'_>)]) -> Plot {
     let series = list.iter().map(|(name, grid)| {
         let [nx, ny] = grid.count;
@@ -71,8 +72,8 @@ pub fn of_rooms(list: &[(String, Grid<'_>)]) -> Plot {
     Plot { guides: guides.into(), ..plot(axis, texts::E_MIDDLE_ROW.get(), "lx", series.collect()) }
 }
 
-/// Returns the plot of transmittance for light in the vertical plane through the normal, from straight up to straight
-/// down.
+/// Returns the plot of transmittance τ against profile angle, for incident directions in the vertical plane through the
+/// normal, from −90° (from straight below) to 90° (from straight above).
 pub fn of_transmittances(list: &[(String, &Btdf)]) -> Plot {
     let series = list.iter().map(|(name, btdf)| {
         let at = |angle: i32| {
@@ -85,7 +86,8 @@ pub fn of_transmittances(list: &[(String, &Btdf)]) -> Plot {
     plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), "τ", "", series.collect())
 }
 
-/// Returns the plot of the state that the control requires against the profile angle of the sun.
+/// Returns the plot of the state that the control demands against the profile angle of the sun. `list`: labels, and
+/// points of profile angle \[°\] and number of the state, such as the slat angle \[°\].
 pub fn of_controls(list: &[(String, Vec<[f64; 2]>)]) -> Plot {
     let series = list.iter().map(|(name, curve)| Series::line(name.as_str(), curve.iter().copied()));
     plot(Axis::linear([-90.0, 90.0], texts::PROFILE_ANGLE, Unit::Degrees), texts::STATE.get(), "°", series.collect())

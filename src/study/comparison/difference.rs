@@ -1,4 +1,5 @@
-//! Signed differences of illuminances by sensor, and of luminance coefficients and transmittances on common patches.
+//! Differences between a candidate and a reference candidate, with their sign: of illuminances by sensor, and of
+//! luminance coefficients and transmittances on common patches.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Btdf;
@@ -8,11 +9,11 @@ use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::hemisphere::Side;
 use crate::drawing::ticks::fine_ceil;
 
-/// Number of rings of the patches that differences are taken on; fine enough for Klems data and refinements of them.
+/// Number of rings of the patches on which differences are taken; fine enough for Klems data and refinements of them.
 const RINGS: usize = 24;
 
-/// Returns the illuminances minus those of the reference, sensor by sensor, with errors added; `None` if the sensors
-/// are not the same. \[lx\]
+/// Returns the illuminances of a candidate minus those of the reference, sensor by sensor, with their errors added;
+/// `None` if their sensors are not at the same positions. \[lx\]
 pub fn of_rooms(
     [positions, base_positions]: [&[[f64; 3]]; 2],
     [room, base]: [&[Estimate]; 2],
@@ -25,16 +26,18 @@ pub fn of_rooms(
     })
 }
 
-/// Differences on patches of the hemisphere of through directions.
+/// Differences on patches of a hemisphere: of incident directions, or of emergent ones. An emergent patch is given by
+/// the incident directions whose undeviated light leaves through it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnCells {
-    /// Basis of the patches.
+    /// Basis of the hemisphere.
     pub basis: RingBasis,
-    /// Value at the centre of each patch.
+    /// Difference at the centre of each patch, in the unit of the quantity.
     pub values: Vec<f64>,
 }
 
-/// Returns the luminance coefficients q of the scattered light of one incidence, minus those of the reference. \[1/sr\]
+/// Returns the luminance coefficients q of the light scattered from one incident direction, minus those of the
+/// reference, on patches of the emergent hemisphere. \[1/sr\]
 pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
     let basis = RingBasis::equal_area(RINGS);
     let at = |emergent: Emergent| btdf.q(incident, emergent) - base.q(incident, emergent);
@@ -42,7 +45,7 @@ pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
     OnCells { basis, values }
 }
 
-/// Returns the transmittances by incident direction, minus those of the reference.
+/// Returns the transmittances τ on patches of the incident hemisphere, minus those of the reference.
 pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
     let basis = RingBasis::equal_area(RINGS);
     let at = |incident: Incident| btdf.tau(incident) - base.tau(incident);
@@ -50,29 +53,30 @@ pub fn of_tau(btdf: &Btdf, base: &Btdf) -> OnCells {
     OnCells { basis, values }
 }
 
-/// Picture of a difference.
+/// Differences between a candidate and the reference, with what a picture of them needs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Picture {
-    /// Illuminances at the sensors, x running fastest. \[lx\]
+    /// Differences of illuminances at the sensors on a floor plan. \[lx\]
     Plan {
         /// Width and depth of the room. \[m\]
         room: [f64; 2],
         /// Number of sensors along x and y.
         count: [usize; 2],
-        /// Candidate minus reference, with errors added.
+        /// Differences, candidate minus reference, x running fastest; errors are the sums of both. \[lx\]
         values: Vec<Estimate>,
     },
-    /// Luminance coefficients by emergent direction \[1/sr\], or transmittances by incident direction.
+    /// Differences of luminance coefficients by emergent direction \[1/sr\], or of transmittances by incident
+    /// direction, on a disk.
     Disk {
-        /// Side of the directions: emergent or incident.
+        /// Hemisphere of the disk: emergent or incident.
         side: Side,
-        /// Candidate minus reference.
+        /// Differences, candidate minus reference, on the patches of the hemisphere.
         cells: OnCells,
     },
 }
 
 impl Picture {
-    /// Returns the largest absolute difference.
+    /// Returns the largest absolute difference, in the unit of the quantity.
     pub fn reach(&self) -> f64 {
         let largest = |values: &mut dyn Iterator<Item = f64>| {
             values.map(f64::abs).filter(|value| value.is_finite()).fold(0.0, f64::max)
@@ -83,7 +87,7 @@ impl Picture {
         }
     }
 
-    /// Returns name and unit of the difference.
+    /// Returns symbol and unit of the difference, such as "ΔE" and "lx".
     pub const fn quantity(&self) -> [&'static str; 2] {
         match self {
             Self::Plan { .. } => ["ΔE", "lx"],
@@ -93,7 +97,8 @@ impl Picture {
     }
 }
 
-/// Returns the common scale of all differences of a quantity, symmetric about zero.
+/// Returns the colour scale for all pictures of differences of a quantity, symmetric about zero. `reach`: largest
+/// absolute difference, in the unit of the quantity.
 pub fn scale(reach: f64) -> ColourScale {
     let hi = fine_ceil(reach.max(1e-6));
     ColourScale { lo: -hi, hi, log: false, map: ColourMap::Diverging }

@@ -1,7 +1,7 @@
-//! Figures by which candidates are compared: definition, unit, error, and whether more or less is better.
+//! Figures by which candidates are compared: definition, unit, error, and whether larger or smaller values are better.
 //!
-//! Errors of illuminances and flux are those that the study states. Figures of the data have the error that the data
-//! state ([`stated_error`]); measured data state none, and none is made up for them.
+//! Errors of illuminances and flux are those that the study states. Figures of the BSDF data have the error that the
+//! data state ([`stated_error`]); measured data state none, and none is invented for them.
 
 use crate::catalogue::{light, stated_error};
 use crate::compute::btdf::{Dataset, LightFigures};
@@ -10,7 +10,7 @@ use crate::compute::lid::c_gamma::Peaks;
 use crate::drawing::ticks::number;
 use crate::texts::{Text, compare as texts, fixed};
 
-/// Value of a figure with its error, both in the figure's unit.
+/// Value of a figure with its absolute error, both in the figure's unit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Value {
     /// Value of the figure.
@@ -26,7 +26,7 @@ impl From<Estimate> for Value {
 }
 
 impl Value {
-    /// Formats the value with its error, both to two digits of the error.
+    /// Formats the value with its error; the error has two digits, and the value ends at the same digit.
     pub fn words(self) -> String {
         let Self { value, error } = self;
         match error.filter(|error| *error > 0.0 && error.is_finite()) {
@@ -39,19 +39,19 @@ impl Value {
     }
 }
 
-/// Direction in which a figure is better.
+/// Whether larger or smaller values of a figure are better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sense {
-    /// More is better.
+    /// Larger values are better.
     More,
-    /// Less is better.
+    /// Smaller values are better.
     Less,
-    /// Neither: it depends on the aim of the design.
+    /// Neither is better by itself: it depends on the aim of the design.
     Aim,
 }
 
 impl Sense {
-    /// Returns the value in files; it does not change with the label.
+    /// Returns the key in files; it does not change with the label.
     pub const fn key(self) -> &'static str {
         match self {
             Self::More => "more is better",
@@ -60,7 +60,7 @@ impl Sense {
         }
     }
 
-    /// Returns the label of the direction.
+    /// Returns the translated label.
     pub const fn words(self) -> Text {
         match self {
             Self::More => texts::MORE,
@@ -70,21 +70,22 @@ impl Sense {
     }
 }
 
-/// Figures of the data.
+/// Figures of a system's BSDF data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DataFacts {
-    /// Visible transmittance at normal incidence.
+    /// Visible transmittance τ at normal incidence, 0 … 1.
     pub tau_normal: f64,
-    /// Visible hemispherical transmittance.
+    /// Visible hemispherical transmittance τ, 0 … 1.
     pub tau_hemispherical: f64,
-    /// Figures of the distribution of transmitted light.
+    /// Figures of the distribution of transmitted light: share to the ceiling, sun blocked, normal–normal
+    /// transmittance.
     pub light: LightFigures,
-    /// Absolute error of transmittances; `None` if the data do not state it.
+    /// Absolute error of the transmittances; `None` if the data do not state it.
     pub error: Option<f64>,
 }
 
 impl DataFacts {
-    /// Returns the figures of a dataset; `None` without transmission.
+    /// Returns the figures of a dataset; `None` if it has no transmission.
     pub fn of(dataset: &Dataset) -> Option<Self> {
         let transmission = dataset.transmission()?;
         Some(Self {
@@ -96,45 +97,45 @@ impl DataFacts {
     }
 }
 
-/// Results of an aperture's light.
+/// Luminous flux and intensities of an aperture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LidFacts {
-    /// Total luminous flux. \[lm\]
+    /// Luminous flux into the room. \[lm\]
     pub flux: Estimate,
-    /// Largest luminous intensities.
+    /// Largest luminous intensities of the distribution, with their directions; `None` if there are none.
     pub peaks: Option<Peaks>,
 }
 
-/// Computed results of a candidate; `None` for what was not computed.
+/// Computed results of a candidate; `None` for those that were not computed.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Facts {
-    /// Figures of the first aperture's data.
+    /// Figures of the BSDF data of the first aperture's system.
     pub data: Option<DataFacts>,
-    /// Results of the first aperture's light.
+    /// Luminous flux and intensities of the first aperture.
     pub lid: Option<LidFacts>,
-    /// Illuminance at the sensors. \[lx\]
+    /// Illuminances at the sensors. \[lx\]
     pub room: Option<Vec<Estimate>>,
 }
 
-/// Definition of a figure.
+/// Definition of a figure by which candidates are compared.
 #[derive(Debug, Clone, Copy)]
 pub struct Figure {
-    /// Key of the figure in files.
+    /// Key of the figure in CSV files.
     pub key: &'static str,
-    /// Label, in sentence case.
+    /// Label of the figure, in sentence case.
     pub name: Text,
     /// Unit; empty for shares of one.
     pub unit: &'static str,
-    /// Direction in which the figure is better.
+    /// Whether larger or smaller values are better.
     pub sense: Sense,
-    /// Definition of the figure, and why this direction is better.
+    /// Definition of the figure, and why larger or smaller values are better.
     pub tip: Text,
-    /// Computes the value from the results; `None` if these are not sufficient.
+    /// Function that computes the figure from a candidate's results; `None` if these are not sufficient.
     pub of: fn(&Facts) -> Option<Value>,
 }
 
 impl Figure {
-    /// Returns the name in JSON files; it does not change with the label.
+    /// Returns the name of the figure in JSON files; it does not change with the label.
     pub fn json_name(&self) -> &'static str {
         match self.key {
             "tau_normal" => "τ normal",
@@ -154,7 +155,7 @@ impl Figure {
     }
 }
 
-/// Minimum illuminance over half of a room by EN 17037. \[lx\]
+/// Target illuminance of EN 17037 that half of the room should reach. \[lx\]
 const TARGET: f64 = 300.0;
 
 fn data(facts: &Facts, of: impl FnOnce(&DataFacts) -> f64) -> Option<Value> {
@@ -177,7 +178,7 @@ fn mean(room: &[Estimate]) -> Estimate {
     room.iter().copied().sum::<Estimate>() * (1.0 / room.len() as f64)
 }
 
-/// Returns the minimum of values (with `sign` −1 the maximum), with its uncertainty.
+/// Returns the smallest of the illuminances (with `sign` −1 the largest), with its uncertainty. \[lx\]
 fn least(room: &[Estimate], sign: f64) -> Estimate {
     let of = |shift: f64| room.iter().map(|one| sign * one.value + shift * one.error).fold(f64::INFINITY, f64::min);
     let (value, low, high) = (of(0.0), of(-1.0), of(1.0));

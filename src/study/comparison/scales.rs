@@ -1,4 +1,4 @@
-//! Common scales for the same tile of several candidates: minimum and maximum value, in the tile's unit.
+//! Common scales for the pictures of several candidates: smallest and largest value, in the unit of the picture.
 
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
@@ -10,7 +10,7 @@ use crate::compute::sky::Outside;
 use crate::drawing::colours::{ColourMap, ColourScale};
 use crate::drawing::ticks::fine_ceil;
 
-/// Minimum and maximum value; `None` without any light.
+/// Smallest and largest value of a scale; `None` without any light.
 pub type Range = Option<[f64; 2]>;
 
 fn positive(values: impl Iterator<Item = f64>) -> Option<f64> {
@@ -18,8 +18,8 @@ fn positive(values: impl Iterator<Item = f64>) -> Option<f64> {
     (greatest > 0.0).then_some(greatest)
 }
 
-/// Returns the scale of luminance coefficients of scattered light, each dataset at its incidence: three decades.
-/// \[1/sr\]
+/// Returns the scale for luminance coefficients of scattered light, three decades up to the largest of all systems at
+/// their incident directions. \[1/sr\]
 pub fn of_q<'a>(list: impl Iterator<Item = (&'a Btdf, Incident)>) -> Range {
     let greatest = |(btdf, incident): (&Btdf, Incident)| {
         btdf.indicatrix(incident).map_or(0.0, |one| one.q.into_iter().fold(0.0, f64::max))
@@ -28,14 +28,16 @@ pub fn of_q<'a>(list: impl Iterator<Item = (&'a Btdf, Incident)>) -> Range {
     Some([scale.lo, scale.hi])
 }
 
-/// Returns the scale of transmittances over the hemisphere.
+/// Returns the scale for transmittances τ over the hemisphere, from 0 to a round number above the largest of all
+/// systems.
 pub fn of_tau<'a>(list: impl Iterator<Item = &'a Btdf>) -> Range {
     let basis = RingBasis::equal_area(16);
     let greatest = |btdf: &Btdf| basis.cells().map(|cell| btdf.tau(Incident(cell.centre()))).fold(0.0, f64::max);
     Some([0.0, fine_ceil(positive(list.map(greatest))?)])
 }
 
-/// Returns the scale of scattered intensities, on a raster of directions. \[cd\]
+/// Returns the scale for scattered luminous intensities, from 0 to the largest of all distributions on a raster of
+/// directions. \[cd\]
 pub fn of_lids<'a>(list: impl Iterator<Item = &'a Lid>) -> Range {
     let greatest = |lid: &Lid| {
         let aim = Aim::of(lid.surface);
@@ -47,12 +49,12 @@ pub fn of_lids<'a>(list: impl Iterator<Item = &'a Lid>) -> Range {
     Some([0.0, positive(list.map(greatest))?])
 }
 
-/// Returns the scale of illuminances. \[lx\]
+/// Returns the scale for illuminances, from 0 to a round number above the largest. \[lx\]
 pub fn of_illuminances(list: impl Iterator<Item = f64>) -> Range {
     Some([0.0, fine_ceil(positive(list)?)])
 }
 
-/// Returns the logarithmic scale of sky luminances; zero is left out. \[cd/m²\]
+/// Returns the logarithmic scale for sky luminances, which encloses those of all skies; zero is left out. \[cd/m²\]
 pub fn of_skies<'a>(list: impl Iterator<Item = &'a Outside>) -> Range {
     let mut range = [f64::INFINITY, 0.0_f64];
     for outside in list {

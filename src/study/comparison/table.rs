@@ -4,14 +4,15 @@
 use super::figures::{Facts, Figure, Sense, Value};
 use crate::texts::{compare as texts, csv_cell};
 
-/// Outcome of the comparison of a row's values.
+/// Result of comparing the values of one figure.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Verdict {
-    /// Better than all others by more than the sum of the errors; several if they do not differ from each other.
+    /// Indices of the candidates that are better than all others by more than the sum of the errors; several if they do
+    /// not differ from each other.
     Better(Vec<usize>),
     /// No difference is larger than the sum of the errors.
     Within,
-    /// Neither direction is better by itself.
+    /// Neither larger nor smaller values are better by themselves.
     Aim,
     /// The values differ, but an error is not stated.
     Unstated,
@@ -19,14 +20,14 @@ pub enum Verdict {
     Alone,
 }
 
-/// One figure of all candidates.
+/// One figure of all candidates, as a row of the table.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// Definition of the figure.
     pub figure: Figure,
-    /// Values in the order of the candidates; `None` if a value is not known.
+    /// Values in the order of the candidates; `None` where a value is not known.
     pub values: Vec<Option<Value>>,
-    /// Outcome of the comparison.
+    /// Result of comparing the values.
     pub verdict: Verdict,
 }
 
@@ -40,7 +41,7 @@ pub fn compare(figures: &[Figure], candidates: &[&Facts]) -> Vec<Row> {
     figures.iter().map(row).collect()
 }
 
-/// Determines which of several values is better.
+/// Determines which of several values is better. `sense`: whether larger or smaller values are better.
 pub fn judge(sense: Sense, values: &[Option<Value>]) -> Verdict {
     let sign = match sense {
         Sense::More => 1.0,
@@ -61,7 +62,7 @@ pub fn judge(sense: Sense, values: &[Option<Value>]) -> Verdict {
     if tied.len() == known.len() { Verdict::Within } else { Verdict::Better(tied) }
 }
 
-/// Formats an outcome; `names`: of the candidates.
+/// Returns the result of a comparison as a translated text. `names`: names of the candidates.
 pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     match verdict {
         Verdict::Better(list) => {
@@ -75,7 +76,8 @@ pub fn verdict_words(verdict: &Verdict, names: &[String]) -> String {
     }
 }
 
-/// Formats an outcome for files; its words do not change with the labels.
+/// Returns the result of a comparison as a text for files, which does not change with the labels. `names`: names of the
+/// candidates.
 fn verdict_key(verdict: &Verdict, names: &[String]) -> String {
     match verdict {
         Verdict::Within => "within the errors".to_owned(),
@@ -85,8 +87,8 @@ fn verdict_key(verdict: &Verdict, names: &[String]) -> String {
     }
 }
 
-/// Returns the rows as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`. Its words are
-/// English, as in all data files.
+/// Returns the table as CSV: `figure,unit,better_is`, value and error of each candidate, and `better`. `names`: names
+/// of the candidates. All words are English, as in all data files.
 pub fn csv(rows: &[Row], names: &[String]) -> String {
     let mut out = String::from("figure,unit,better_is");
     for name in names {

@@ -1,5 +1,5 @@
-//! Properties of a product that a control needs: its states with their numbers, its curve, and the section of its
-//! slats.
+//! Properties of a product that a shading control needs: its states with their numbers, its control curve, and the
+//! section of its slats.
 
 use super::super::error::StudyError;
 use super::keys::SlatKeys;
@@ -9,20 +9,22 @@ use crate::compute::system::slats::SlatProfile;
 use crate::formats::system_toml::SystemFile;
 use crate::study::scene_file::FamilyState;
 
-/// Device with states that a controller can set.
+/// Shading device with states that a control can set.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Device {
     /// Key of the product, for messages.
     pub name: String,
-    /// Keys of the states, in the product's order.
+    /// Keys of the states, in the order of the product.
     pub keys: Vec<String>,
-    /// Numbers of the states; `None` for a device that has states without numbers. \[°, or the state's own unit\]
+    /// Numbers of the states, such as slat angles; `None` for a device that has states without numbers.
+    /// \[°, or the unit of the states\]
     pub values: Option<Vec<f64>>,
-    /// Control curve of the product: (profile angle \[°\], value).
+    /// Control curve of the product as points: profile angle of the sun \[°\], and number of the state such as the slat
+    /// angle \[°\].
     pub curve: Vec<[f64; 2]>,
-    /// Section of the slats, where it is known.
+    /// Cross-section of the slats, where it is known; it determines whether direct sun passes between them.
     pub section: Option<SlatRow>,
-    /// Whether the slats are vertical: their profile angle is that of the horizontal plane.
+    /// Whether the slats are vertical, so that their profile angle is that of the horizontal plane.
     pub upright: bool,
 }
 
@@ -45,7 +47,7 @@ impl Device {
         })
     }
 
-    /// Creates a device from a described system with the keys of its states.
+    /// Creates a device from a described system. `text`: text of the description; `keys`: keys of its states.
     pub fn described(file: &SystemFile, text: &str, keys: Vec<String>) -> Self {
         let blind = blind_of(text);
         let curve = blind.as_ref().map(|blind| control_curve(&file.control, blind)).unwrap_or_default();
@@ -59,7 +61,7 @@ impl Device {
         }
     }
 
-    /// Creates a device from a family of files.
+    /// Creates a device from the states of a family of files in a scene.
     pub fn of_family(states: &[FamilyState]) -> Self {
         Self {
             name: states.first().map_or_else(String::new, |one| one.file.display().to_string()),
@@ -74,7 +76,8 @@ impl Device {
     /// Returns the index of a state by its key.
     ///
     /// # Errors
-    /// Returns an error that names `scene_key` and the states if the device does not have the state.
+    /// Returns an error that names the key of the scene file (`scene_key`) and the existing states if the device does
+    /// not have the state.
     pub fn state(&self, key: &str, scene_key: &str) -> Result<usize, StudyError> {
         self.keys.iter().position(|known| known == key).ok_or_else(|| {
             StudyError::key(
@@ -85,18 +88,17 @@ impl Device {
     }
 }
 
-/// Returns the section of the slats in a description, `None` without slats; the catalogue holds the descriptions of
-/// products that the program computes.
+/// Returns the cross-section of the slats in the text of a system description; `None` for systems without slats.
 fn section_of(system: &str) -> Option<SlatRow> {
     SlatRow::of(&slats_of(system)?.0)
 }
 
-/// Whether the moving part of a description is vertical.
+/// Whether the slats in the text of a system description are vertical.
 pub fn is_upright(system: &str) -> bool {
     moving_part(system).is_some_and(|moving| moving.upright)
 }
 
-/// Creates the section of slats from the keys of a scene.
+/// Creates the cross-section of slats from the keys `control.slats` of a scene.
 ///
 /// # Errors
 /// Returns an error if the keys do not give a section.

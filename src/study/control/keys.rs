@@ -36,31 +36,31 @@
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Key `control.mode`: rule of the control.
+/// Key `control.mode`: rule by which the control chooses a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ControlMode {
-    /// The most open state that lets no direct sun through.
+    /// State that is most open among those that let no direct sun through.
     CutOff,
-    /// Closed state while the façade gets direct sun.
+    /// Closed state while the façade gets direct sun, else the open state.
     #[serde(rename = "din-5034")]
     Din5034,
-    /// Curve over the solar profile angle: the product's own or a given one.
+    /// State by a curve over the profile angle of the sun: that of the product or a given one.
     Curve,
-    /// Mirror slats reflect the sun back.
+    /// Tilt at which specular slats reflect direct sunlight back towards the sun.
     RetroReflect,
-    /// Mirror slats redirect the sun into the room at an elevation.
+    /// Tilt at which specular slats redirect direct sunlight into the room at an elevation.
     Redirect,
-    /// State that is named, or the product's first.
+    /// State that `control.state` names, or the first of the product.
     Fixed,
-    /// States by local time.
+    /// States by periods of local time, set by the user.
     User,
-    /// External states, row by row in time.
+    /// States from a file, row by row in time.
     Table,
 }
 
 impl ControlMode {
-    /// Modes that can be chosen without a file, as scene files order them.
+    /// Modes that can be chosen without a file, in the order of scene files.
     pub const ALL: [Self; 7] =
         [Self::CutOff, Self::Din5034, Self::Curve, Self::RetroReflect, Self::Redirect, Self::Fixed, Self::User];
 
@@ -79,40 +79,40 @@ impl ControlMode {
     }
 }
 
-/// Key `control.rounding`: choice of the state for a demanded value.
+/// Key `control.rounding`: choice of a state for the number that the rule demands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RoundingKey {
-    /// The least closed state that reaches the curve.
+    /// State that is least closed among those not more open than demanded.
     Closed,
-    /// State nearest to the curve.
+    /// State whose number is nearest to the demanded one.
     Nearest,
 }
 
-/// Key `control.slats`: section of the slats.
+/// Key `control.slats`: cross-section of the slats.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SlatKeys {
-    /// Chord of a slat, unless a profile is given. \[m\]
+    /// Width of a slat (chord of its section), unless a profile is given. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Vertical pitch of the slats. \[m\]
+    /// Vertical distance between slats. \[m\]
     pub spacing: f64,
-    /// Rise of the arc of a slat, > 0 = convex side up. \[m\]
+    /// Rise of the arc of a slat above its chord, > 0 = convex side up. \[m\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rise: Option<f64>,
-    /// Section of a slat at angle 0: (outward, upward). \[m\]
+    /// Points of a slat's section at tilt 0: (outward, upward). \[m\]
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub profile: Vec<[f64; 2]>,
 }
 
-/// Period of the key `control.schedule`.
+/// Entry of the key `control.schedule`: a period of the day with a state.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PeriodKeys {
-    /// Start of the period, `HH:MM`.
+    /// Start of the period in local time, `HH:MM`.
     pub from: String,
-    /// End of the period, `HH:MM`; if earlier than `from`: past midnight.
+    /// End of the period in local time, `HH:MM`; if earlier than `from`, it is on the next day.
     pub to: String,
     /// Key of the state in the period.
     pub state: String,
@@ -122,18 +122,19 @@ pub struct PeriodKeys {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ControlKeys {
-    /// Rule of the control.
+    /// Rule by which the control chooses a state.
     pub mode: ControlMode,
-    /// State of mode "fixed"; in mode "user" the state outside the periods.
+    /// Key of the state in mode "fixed"; in mode "user" that of the state outside the periods.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub state: Option<String>,
-    /// Elevation of redirected light in the room, mode "redirect". \[°\]
+    /// Elevation in which light is redirected into the room, for mode "redirect". \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elevation: Option<f64>,
-    /// Rule by which a demanded value becomes a state.
+    /// Rule by which a demanded number becomes one of the states.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounding: Option<RoundingKey>,
-    /// Curve of mode "curve": (profile angle \[°\], value of the state).
+    /// Curve of mode "curve" as points: profile angle of the sun \[°\], and number of the state such as the slat angle
+    /// \[°\].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub curve: Vec<[f64; 2]>,
     /// File with the curve of mode "curve", relative to the scene.
@@ -142,10 +143,10 @@ pub struct ControlKeys {
     /// File with times and states of mode "table", relative to the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Tolerance of a slat's angle, mode "cut-off". \[°\]
+    /// Tolerance of a slat's tilt, for mode "cut-off". \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
-    /// Illuminance of the façade by direct sun above which the sun counts. \[lx\]
+    /// Illuminance of the façade by direct sun above which it counts as sunlit. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub threshold: Option<f64>,
     /// Total illuminance of the façade above which the device closes. \[lx\]
@@ -154,40 +155,42 @@ pub struct ControlKeys {
     /// Indoor illuminance below which closing by `close_above` and by DIN 5034 is revoked. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub open_below: Option<f64>,
-    /// Illuminance that the room's sensor reads. \[lx\]
+    /// Reading of the room's illuminance sensor, at one moment or at all hours. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub indoor: Option<f64>,
-    /// Sensors of the scene, from 0, whose mean a year reads instead of `indoor`; none: all sensors.
+    /// Indices (from 0) of the scene's sensors whose mean illuminance an annual simulation reads instead of `indoor`;
+    /// none: all sensors.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub indoor_sensors: Vec<usize>,
-    /// Share of a threshold at which the state is released.
+    /// Fraction of a threshold at which the state that was set by exceeding the threshold is released.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub release: Option<f64>,
-    /// Hysteresis: by how much more open the rule must be before the device opens, in the unit of the states' numbers.
+    /// Hysteresis: minimum difference by which the demanded state must be more open before the device opens, in the
+    /// unit of the states' numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hysteresis: Option<f64>,
     /// Dwell time: minimum time between a movement and the next opening. \[min\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dwell: Option<f64>,
-    /// State by day without direct sun; default: the most open.
+    /// Key of the state by day without direct sun; default: the most open one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub open_state: Option<String>,
-    /// State for DIN 5034 and `close_above`; default: the most closed.
+    /// Key of the state for DIN 5034 and `close_above`; default: the most closed one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub closed_state: Option<String>,
-    /// State while the sun is down; default: the most open.
+    /// Key of the state while the sun is down; default: the most open one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub night_state: Option<String>,
     /// Periods of mode "user", in local time.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub schedule: Vec<PeriodKeys>,
-    /// Section of the slats for mode "cut-off", where the product specifies none.
+    /// Cross-section of the slats for mode "cut-off", where the product does not specify one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slats: Option<SlatKeys>,
 }
 
 impl ControlKeys {
-    /// Creates keys with a mode and nothing else.
+    /// Creates keys with a mode and no other setting.
     pub const fn of(mode: ControlMode) -> Self {
         Self {
             mode,
@@ -214,8 +217,8 @@ impl ControlKeys {
         }
     }
 
-    /// Returns the keys for another mode, with the same thresholds, hysteresis and states; keys of the old mode alone
-    /// are dropped.
+    /// Returns the keys for another mode, with the same thresholds, hysteresis and states; keys that only the old mode
+    /// has are dropped.
     pub fn with_mode(&self, mode: ControlMode) -> Self {
         let keep = |modes: &[ControlMode]| modes.contains(&mode);
         let curve = keep(&[ControlMode::Curve]);
@@ -233,7 +236,8 @@ impl ControlKeys {
         }
     }
 
-    /// Returns the first key that belongs to another mode, with the names of the modes that it belongs to.
+    /// Returns the first key that is set but belongs to another mode, with the names of the modes to which it belongs;
+    /// `None` if all keys suit the mode.
     pub fn misplaced(&self) -> Option<(&'static str, &'static str)> {
         use ControlMode::{Curve, CutOff, Fixed, Redirect, Table, User};
         let only = |key, given: bool, modes: &[ControlMode], word| {
@@ -252,7 +256,7 @@ impl ControlKeys {
     }
 }
 
-/// Modes that round a demanded value to a state.
+/// Modes that demand a number and round it to a state.
 const CURVES: [ControlMode; 3] = [ControlMode::Curve, ControlMode::RetroReflect, ControlMode::Redirect];
 
 #[cfg(test)]

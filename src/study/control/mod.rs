@@ -1,5 +1,5 @@
 //! Shading controls of a scene: from the keys of `[control]` and a product to a controller, and the state that it
-//! picks at the scene's moment.
+//! chooses at the scene's moment.
 
 pub mod device;
 pub mod keys;
@@ -26,24 +26,24 @@ use std::path::Path;
 /// Maximum size of a curve file. \[bytes\]
 const LARGEST_CURVE: u64 = 1 << 20;
 
-/// Input of a control at one moment.
+/// Input of a shading control at one moment.
 #[derive(Debug, Clone, Copy)]
 pub struct ControlQuestion<'a> {
     /// Keys of the control.
     pub keys: &'a ControlKeys,
-    /// Folder that the curve file is relative to.
+    /// Folder from which the relative path of a curve file starts.
     pub base: &'a Path,
-    /// Hour of the day; `None` where the scene has no clock.
+    /// Local time, in hours from midnight; `None` for a scene without a time.
     pub hour: Option<f64>,
-    /// Seconds since the beginning of the year, see [`table::of_scene`].
+    /// Time in seconds since the beginning of the year, see [`table::of_scene`]; `None` for a scene without a date.
     pub of_year: Option<f64>,
-    /// Sky, ground and boxes in front of the aperture, and the sun.
+    /// Outside and sun in front of the aperture.
     pub facing: Facing<'a>,
-    /// Geometry of the aperture.
+    /// Position and size of the aperture.
     pub aperture: Aperture,
 }
 
-/// Returns the key of the state that a control picks for a device at one moment.
+/// Returns the key of the state that a control chooses for a device at one moment.
 ///
 /// # Errors
 /// Returns an error if keys are wrong or do not belong together, or if the rule cannot move the device.
@@ -66,9 +66,11 @@ pub fn pick_state(device: &Device, asked: &ControlQuestion<'_>) -> Result<String
     Ok(device.keys[state].clone())
 }
 
-/// Returns the readings of façade and room sensors at one moment, without a date: the direct illuminance is the mean
-/// over the aperture past boxes; sky, ground and boxes are those seen from its middle. `global`: whether these are
-/// included, which takes an integral. `upright`: whether slats are vertical.
+/// Returns the readings of the façade's and the room's sensors at one moment, without a date. Direct illuminance is the
+/// mean over the aperture past boxes; sky, ground and boxes are those seen from its centre.
+///
+/// `hour`: local time in hours; `indoor`: illuminance in the room \[lx\]; `global`: whether the illuminance of the
+/// façade includes sky, ground and boxes, which takes an integral; `upright`: whether slats are vertical.
 pub fn inputs(
     facing: &Facing<'_>,
     aperture: &Aperture,
@@ -94,15 +96,16 @@ pub fn inputs(
     }
 }
 
-/// Returns the profile angle of a direction from outside, in the section across horizontal slats, or vertical ones
-/// with `upright`. \[rad\]
+/// Returns the profile angle of an incident direction of the façade frame: in the vertical section of horizontal slats,
+/// or with `upright` in the horizontal section of vertical ones. \[rad\]
 pub fn slat_angle(direction: Dir<Facade>, upright: bool) -> f64 {
     let v = direction.vector();
     if upright { v.x } else { v.y }.atan2(v.z)
 }
 
-/// Returns the sun's disc in the section across the slats; `None` where nothing of it is seen. Vertical slats
-/// (`upright`) are horizontal ones rotated by 90°: their "up" points to the right as seen from outside.
+/// Returns the solar disc in the section perpendicular to the slats, as profile angles; `None` if nothing of it is in
+/// front of the aperture and above the skyline. Vertical slats (`upright`) are treated as horizontal ones rotated by
+/// 90°, whose "up" points to the right as seen from outside.
 pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
     let turned = |v: DVec3| if upright { DVec3::new(-v.y, v.x, v.z) } else { v };
     let direction = Dir::from_unit(turned(facing.sun_direction()?.vector()));
@@ -112,8 +115,9 @@ pub fn sun_at(facing: &Facing<'_>, upright: bool) -> Option<SunAt> {
     Some(SunAt { centre: slat_angle(direction, false).clamp(span[0], span[1]), span })
 }
 
-/// Creates the settings of a controller for a device. Angles of `keys` and `device` are in degrees, those of the
-/// result in radians; numbers of states that are not angles are scaled like them throughout, which changes nothing.
+/// Creates the settings of a controller for a device from the keys of a scene. Angles of `keys` and `device` are in
+/// degrees, those of the result in radians; numbers of states that are not angles are scaled like angles throughout,
+/// which has no effect on the choice of states. `base`: folder of the scene.
 ///
 /// # Errors
 /// Returns the errors of [`pick_state`].
@@ -172,6 +176,7 @@ pub fn settings(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Sett
     Ok(settings)
 }
 
+/// Creates the rule of the controller from the keys of the mode.
 fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyError> {
     let rounding = |default| match keys.rounding {
         Some(RoundingKey::Closed) => Rounding::Closed,
@@ -226,14 +231,15 @@ fn rule(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Rule, StudyE
     })
 }
 
-/// Default elevation of redirected light, at which it reaches the ceiling deep in a room of usual height. \[°\]
+/// Default elevation in which light is redirected; it then reaches the ceiling deep in a room of usual height. \[°\]
 pub const DEFAULT_ELEVATION: f64 = 30.0;
 
 fn radians(curve: &[[f64; 2]]) -> Vec<(f64, f64)> {
     curve.iter().map(|[angle, value]| (angle.to_radians(), value.to_radians())).collect()
 }
 
-/// Returns the curve of mode "curve": the scene's table or file, or else the product's.
+/// Returns the curve of mode "curve" – that of the scene or its file, or else the product's – as points: profile angle
+/// of the sun \[°\], and number of the state such as the slat angle \[°\]. `base`: folder of the scene.
 pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f64; 2]>, StudyError> {
     if let Some(file) = &keys.curve_file {
         if !keys.curve.is_empty() {
@@ -265,6 +271,7 @@ pub fn curve(keys: &ControlKeys, device: &Device, base: &Path) -> Result<Vec<[f6
     Ok(keys.curve.clone())
 }
 
+/// Creates a period of mode "user" from its keys, after checking times and state.
 fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
     let hour = |text: &str| {
         let (hours, minutes) = text.split_once(':')?;
@@ -282,7 +289,7 @@ fn period(keys: &PeriodKeys, device: &Device) -> Result<Period, StudyError> {
     Ok(Period { from: read(&keys.from)?, to: read(&keys.to)?, state: device.state(&keys.state, "control.schedule")? })
 }
 
-/// Checks that at most one period holds at every time: which of two is meant would depend only on their order.
+/// Checks that periods do not overlap, because the state would then depend on their order.
 fn distinct(periods: &[Period], keys: &[PeriodKeys]) -> Result<(), StudyError> {
     let spans = |period: &Period| {
         if period.from <= period.to {

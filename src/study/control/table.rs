@@ -1,4 +1,4 @@
-//! Mode "table": external states, row by row in time.
+//! Control mode "table": states from a file, row by row in time.
 
 use super::device::Device;
 use crate::compute::control::controller::Rule;
@@ -9,7 +9,8 @@ use crate::study::scene_file::SceneFile;
 use crate::study::sun_position::parse_local_time;
 use std::path::Path;
 
-/// Reads the file of a table and returns its states: (seconds since the beginning of the year, index of the state).
+/// Reads the file of mode "table". Returns the time of each row, in seconds since the beginning of the year, with the
+/// index of its state.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, or if a row has no state or one that the device does not have, with
@@ -32,7 +33,8 @@ pub(super) fn read(name: Option<&Path>, device: &Device, base: &Path) -> Result<
         .collect()
 }
 
-/// Checks that the table of a rule, if it is one, begins before a moment with light.
+/// Checks, for a rule of mode "table", that its first row is not later than a moment with light. `of_year`: the moment
+/// in seconds since the beginning of the year.
 ///
 /// # Errors
 /// Returns an error if the table begins later or the moment has no date, with what was expected.
@@ -50,7 +52,7 @@ pub fn begun(rule: &Rule, of_year: Option<f64>) -> Result<(), StudyError> {
     }
 }
 
-/// Returns day and time of the year as text.
+/// Returns a time, given in seconds since the beginning of the year, as text: day and time of day.
 fn day(seconds: f64) -> String {
     let whole = seconds as i64;
     // The first of January is day 1.
@@ -58,8 +60,8 @@ fn day(seconds: f64) -> String {
     time.strftime("%m-%d %H:%M").to_string()
 }
 
-/// Returns the seconds since the beginning of the year of a scene's moment, in local standard time; `None` without a
-/// time.
+/// Returns the scene's moment in seconds since the beginning of the year, in local standard time; `None` for a scene
+/// without a time.
 pub fn of_scene(file: &SceneFile) -> Option<f64> {
     let time = parse_local_time(&file.sky.time.as_ref()?.text()).ok()?;
     Some(of_year(file.site.dst.standard(time, file.site.utc_offset.unwrap_or(0.0))))

@@ -1,10 +1,10 @@
-//! A year of states: every step from 1 January, evaluated in the middle of each step, with the sun in front of every
-//! aperture, the value that its control demands, and the state that results.
+//! States of controlled apertures over a year: every step from 1 January, evaluated at its middle, with the sun in
+//! front of every aperture, the number that its control demands, and the resulting state.
 //!
-//! The sun shines whenever any of its disc is up, as bright as a [`ClearSky`]'s, and the sky is taken as uniform where
-//! illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by those of its hours. Indoor
-//! illuminances are not computed: `open_below` works with `control.indoor` alone; a year in the room reads its
-//! sensors. The skyline hides the sun by its altitude at the sun's bearing, boxes hide it from the parts of an
+//! The sun shines whenever any part of its disc is up, as bright as in a [`ClearSky`], and the sky is taken as uniform
+//! where illuminances are compared with thresholds; a [`Weather`] replaces both illuminances by those of its hours.
+//! Indoor illuminances are not computed: `open_below` uses `control.indoor` alone; an annual simulation reads the
+//! room's sensors. The skyline hides the sun by its altitude at the sun's bearing, boxes hide it from parts of an
 //! aperture; sky and ground behind boxes count as dark here, and boxes reflect nothing.
 
 use super::device::section_from_keys;
@@ -38,20 +38,21 @@ use jiff::civil::{Date, DateTime};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Key of the state in a scene file that leaves an aperture's state to a control.
+/// Value of a state in a scene file that leaves the state of an aperture to its control.
 pub const CONTROLLED: &str = "controlled";
 
-/// Source of the illuminances of a year: on a plane facing the sun, and diffuse on a horizontal plane. \[lx\]
+/// Source of the outdoor illuminances of a year: direct normal, and diffuse horizontal. \[lx\]
 pub trait Weather: Sync {
-    /// Returns the illuminances at `time` with the sun at `altitude` \[rad\]; `None` where they are unknown.
+    /// Returns direct normal and diffuse horizontal illuminance \[lx\] at `time` (local standard time) with the sun at
+    /// `altitude` \[rad\]; `None` where they are unknown.
     fn illuminances(&self, time: DateTime, altitude: f64) -> Option<(f64, f64)>;
 }
 
-/// Minimum direct normal illuminance while any of the disc is up: the control depends on whether direct sun passes,
-/// not on how much. \[lx\]
+/// Minimum direct normal illuminance while any part of the disc is up, because the control depends on whether direct
+/// sun passes, not on how much. \[lx\]
 const LEAST_BEAM: f64 = 1.0;
 
-/// Clear sky at all hours, with the illuminances that the scene uses for clear skies.
+/// Clear sky at all hours, with the illuminances that a scene uses for clear skies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ClearSky {
     /// Clear-sky model of Ineichen and Perez 2002.
@@ -66,7 +67,7 @@ pub enum ClearSky {
 }
 
 impl ClearSky {
-    /// Creates the clear sky of a scene: RP-21 where `sky.illuminance` says so.
+    /// Creates the clear sky of a scene: of IES RP-21 where `sky.illuminance` says so, else by Linke turbidity.
     fn of(file: &SceneFile) -> Self {
         match file.sky.illuminance {
             IlluminanceKey::Rp21 => Self::Practice,
@@ -90,52 +91,53 @@ impl Weather for ClearSky {
     }
 }
 
-/// Aperture with a controlled state, ready to be stepped through time.
+/// Aperture whose state a control chooses, ready to be stepped through time.
 #[derive(Debug, Clone)]
 pub struct Moving {
-    /// Number of the aperture, from 1.
+    /// Number of the aperture in the scene, from 1.
     pub aperture: usize,
-    /// Geometry of the aperture.
+    /// Position and size of the aperture.
     pub opening: Aperture,
-    /// Device that the control sets.
+    /// Shading device that the control sets.
     pub device: Device,
     /// Keys of the control.
     pub keys: ControlKeys,
-    /// Section of the slats, where it is known: it decides whether direct sun passes.
+    /// Cross-section of the slats, where it is known; it determines whether direct sun passes between them.
     pub section: Option<SlatRow>,
 }
 
-/// Controlled state of one aperture at one moment.
+/// State that the control chose for one aperture at one moment, and the reasons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting {
     /// Profile angle of the sun's centre \[rad\]; `None` while nothing of the sun is in front of the aperture.
     pub profile_angle: Option<f64>,
-    /// Value that the rule demands, in the unit of the states' numbers.
+    /// Number of the state that the rule demands, such as a slat angle, in the unit of the states' numbers; `None` for
+    /// rules that name a state.
     pub demanded: Option<f64>,
-    /// Index of the resulting state.
+    /// Index of the resulting state in the device.
     pub state: usize,
-    /// Whether direct sun passes between the slats; `None` where they are not known.
+    /// Whether direct sun passes between the slats; `None` where their section is not known.
     pub passes: Option<bool>,
-    /// Reason for the state.
+    /// Reason for choosing the state.
     pub reason: Reason,
-    /// Whether the state differs from that of the step before.
+    /// Whether the state differs from that of the previous step.
     pub moved: bool,
 }
 
-/// Controlled states of all apertures at one moment.
+/// States of all controlled apertures at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
     /// Local standard time of the moment.
     pub time: DateTime,
     /// True altitude of the sun. \[rad\]
     pub altitude: f64,
-    /// Bearing of the sun.
+    /// Bearing of the sun, clockwise from north.
     pub bearing: Bearing,
-    /// Settings of the moving apertures, in their order.
+    /// States of the controlled apertures, in their order.
     pub settings: Vec<Setting>,
 }
 
-/// Returns the apertures whose state a control picks, with their devices and keys; `device` finds the device of a
+/// Returns the apertures whose state a control chooses, with their devices and keys. `device`: returns the device of a
 /// system.
 ///
 /// # Errors
@@ -180,33 +182,33 @@ pub fn moving(
     Ok(list)
 }
 
-/// Conditions of a year of control other than the moving apertures: place, clock, surroundings and sky.
+/// Conditions of a year of control, without its apertures: place, clock, surroundings and sky.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Situation {
-    /// Place from which the sun's position is computed.
+    /// Geographic location for which the sun's position is computed.
     pub place: Place,
-    /// UTC offset of the place's standard time. \[h\]
+    /// UTC offset of the standard time at the geographic location. \[h\]
     pub utc_offset: f64,
-    /// Rule of summer time, which schedules follow.
+    /// Rule of summer time, which the periods of schedules follow.
     pub dst: DstKey,
     /// Calendar year.
     pub year: i16,
-    /// Bearing of the façade's outward normal.
+    /// Bearing of the façade's outward normal, clockwise from north.
     pub facade: Bearing,
-    /// Reflectance of the ground, which is uniform.
+    /// Reflectance of the uniform ground, 0 … 1.
     pub ground_reflectance: f64,
     /// Altitude of a uniform skyline. \[rad\]
     pub skyline: f64,
-    /// Skyline that rises and falls with the bearing, which replaces `skyline`.
+    /// Skyline whose altitude varies with the bearing; it replaces `skyline`.
     pub skyline_by_bearing: Option<Skyline>,
     /// Boxes outside, in the world frame.
     pub boxes: Vec<Solid>,
-    /// Clear sky that gives the illuminances of the year without a weather.
+    /// Clear sky that gives the illuminances of a year without weather data.
     pub sky: ClearSky,
 }
 
 impl Situation {
-    /// Creates the conditions of a scene; a scene without a time gets the year 2026.
+    /// Creates the conditions from a scene; a scene without a time gets the year 2026.
     ///
     /// # Errors
     /// Returns an error if place, clock, sky or obstructions of the scene are missing or not valid.
@@ -263,13 +265,14 @@ impl Situation {
         })
     }
 
-    /// Returns the altitude of the skyline at a bearing. \[rad\]
+    /// Returns the altitude of the skyline at a bearing, uniform or not. \[rad\]
     fn skyline_at(&self, bearing: Bearing) -> f64 {
         self.skyline_by_bearing.as_ref().map_or(self.skyline, |skyline| skyline.altitude(bearing.radians()))
     }
 }
 
-/// Steps the controls through a year, with `minutes` from 1 to 1440 per step, which divide a day.
+/// Steps the controls through a year. `minutes`: length of a step, 1 to 1440, which must divide a day; `weather`:
+/// outdoor illuminances.
 ///
 /// # Errors
 /// Returns an error if the step or the scene is not valid, or [`Cancelled`].
@@ -305,7 +308,7 @@ pub fn year(
     Ok(moments)
 }
 
-/// Steps the controls through one day from midnight to midnight, every `minutes`, hysteresis and dwell time included.
+/// Steps the controls through one day from midnight to midnight, every `minutes`, with hysteresis and dwell time.
 ///
 /// # Errors
 /// Returns the errors of [`year`].
@@ -328,21 +331,21 @@ pub fn day(
         .collect()
 }
 
-/// Controllers of all moving apertures with their states at the current time.
+/// Controllers of all moving apertures, stepped through time, with what they need of the surroundings.
 struct Stepper<'a> {
     situation: &'a Situation,
     moving: &'a [Moving],
     controllers: Vec<Controller>,
     weather: &'a dyn Weather,
-    /// Dark boxes in front of the apertures; `None` without any.
+    /// Boxes in front of the apertures, without light; `None` if there are none.
     around: Option<Arc<Surroundings>>,
-    /// Illuminance at each aperture's middle per horizontal illuminance of a uniform sky, and per exitance of the
-    /// ground.
+    /// Illuminance at the centre of each aperture per diffuse horizontal illuminance of a uniform sky, and per luminous
+    /// exitance of the ground.
     received: Vec<[f64; 2]>,
 }
 
-/// Returns the illuminance at an aperture's middle per horizontal illuminance of a uniform sky, and per exitance of
-/// the ground.
+/// Returns the illuminance at the centre of an aperture per diffuse horizontal illuminance of a uniform sky, and per
+/// luminous exitance of the ground. `around`: boxes outside.
 fn received(aperture: &Aperture, around: Option<&Arc<Surroundings>>, orientation: Orientation) -> [f64; 2] {
     let Some(around) = around else {
         return match aperture.surface {
@@ -377,6 +380,8 @@ impl<'a> Stepper<'a> {
         Ok(Self { situation, moving, controllers: controllers?, weather, around, received })
     }
 
+    /// Steps all controllers to a moment: sun and outdoor illuminances, readings, and the chosen states. `seconds`:
+    /// time for hysteresis and dwell time.
     fn moment(&mut self, time: DateTime, seconds: f64) -> Result<Moment, StudyError> {
         let here = self.situation;
         let at_site = |error: &dyn std::fmt::Display| StudyError::key("site", error.to_string());
@@ -428,7 +433,7 @@ impl<'a> Stepper<'a> {
     }
 }
 
-/// Summary of a year of one aperture. Times in hours.
+/// Summary of a year of control of one aperture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
     /// Number of state changes.
@@ -437,11 +442,12 @@ pub struct Summary {
     pub sun_hours: f64,
     /// Time with direct sun through the aperture \[h\]; `None` where the slats are not known.
     pub direct_hours: Option<f64>,
-    /// Time in each state while the sun is up. \[h\]
+    /// Time in each state while the sun is up, by index of the state. \[h\]
     pub state_hours: Vec<f64>,
 }
 
-/// Sums up a year for the moving aperture `index`, with steps of `minutes`.
+/// Sums up a year of control for the controlled aperture `index`. `states`: number of its states; `minutes`: length of
+/// a step.
 pub fn summary(moments: &[Moment], index: usize, states: usize, minutes: u32) -> Summary {
     let hours = f64::from(minutes) / 60.0;
     let of = |moment: &Moment| moment.settings[index];

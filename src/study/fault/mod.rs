@@ -1,8 +1,9 @@
-//! Internal errors: data of every panic, wherever it happened, and the report on it that a user can send.
+//! Internal errors of the program: data of every panic, wherever it happened, and the report on it that a user can
+//! send.
 //!
-//! Once [`watch`] was called, message, place and backtrace of every panic are kept while its thread is still where it
-//! happened, ours or one of a pool. Whoever catches the panic finds them by its message ([`caught`]): a pool passes a
-//! panic to the thread that waits for it, with the message alone.
+//! Once [`watch`] was called, message, source location and backtrace of every panic are stored before its thread
+//! unwinds, a thread of ours or one of a pool. Whoever catches the panic finds them by its message ([`caught`]),
+//! because a pool passes on only the message to the thread that waits for it.
 
 mod report;
 
@@ -16,19 +17,19 @@ use std::panic::PanicHookInfo;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, Once, PoisonError};
 
-/// Maximum number of faults that are kept until they are caught; the oldest are dropped.
+/// Maximum number of panics whose data are stored until they are caught; the oldest are dropped.
 const MOST_KEPT: usize = 20;
 
-/// Data of a panic.
+/// Data of a panic, which is an internal error of the program.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Fault {
     /// Message of the panic.
     pub message: String,
-    /// File, line and column; empty if [`watch`] was not called.
+    /// Source file, line and column of the panic; empty if [`watch`] was not called.
     pub place: String,
     /// Name of the thread that panicked.
     pub thread: String,
-    /// Time of the panic in UTC.
+    /// Time of the panic, as UTC text.
     pub at: String,
     /// Backtrace of the panic; empty if [`watch`] was not called.
     pub backtrace: String,
@@ -43,7 +44,7 @@ impl std::fmt::Display for Fault {
 }
 
 impl Fault {
-    /// Whether both faults have the same place and message.
+    /// Whether both panics have the same source location and message.
     pub fn is_same(&self, other: &Self) -> bool {
         self.message == other.message && self.place == other.place
     }
@@ -53,18 +54,18 @@ impl Fault {
     }
 }
 
-/// Message of a panic without text.
+/// Message for a panic without text.
 const NO_MESSAGE: &str = "no message";
 
-/// Recent faults that nobody has caught, oldest first.
+/// Data of recent panics that nobody has caught, oldest first.
 static KEPT: Mutex<VecDeque<Fault>> = Mutex::new(VecDeque::new());
 
 fn kept() -> MutexGuard<'static, VecDeque<Fault>> {
     KEPT.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Keeps the data of every panic from now on. With `true` panics are also printed on standard error where they happen,
-/// as without this call; with `false` whoever catches them has to report them. The value of the first call holds.
+/// Stores the data of every panic from now on. With `true` panics are also printed on standard error where they happen,
+/// as without this call; with `false` whoever catches them has to report them. The value of the first call applies.
 pub fn watch(is_printed: bool) {
     static WATCHING: Once = Once::new();
     WATCHING.call_once(|| {
@@ -78,6 +79,7 @@ pub fn watch(is_printed: bool) {
     });
 }
 
+/// Stores the data of a panic, with its backtrace.
 fn keep(info: &PanicHookInfo<'_>) {
     let fault = Fault {
         place: info.location().map(ToString::to_string).unwrap_or_default(),
@@ -93,7 +95,7 @@ fn keep(info: &PanicHookInfo<'_>) {
     kept.push_back(fault);
 }
 
-/// Returns the data of a panic that was caught, and removes them from the kept faults.
+/// Returns the data of a panic that was caught, and removes them from the stored ones.
 pub fn caught(panic: &(dyn Any + Send)) -> Fault {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref::<String>().map(String::as_str));
     let fault = Fault::with_message(text);
@@ -102,12 +104,12 @@ pub fn caught(panic: &(dyn Any + Send)) -> Fault {
     known.and_then(|place| kept.remove(place)).unwrap_or(fault)
 }
 
-/// Returns the newest fault that nobody has caught yet.
+/// Returns the newest panic that nobody has caught yet.
 pub fn newest() -> Option<Fault> {
     kept().back().cloned()
 }
 
-/// Records that the report on a fault that nobody has caught yet was written: whoever catches the fault need not write
+/// Records that the report on a panic was written that nobody has caught yet, so that whoever catches it need not write
 /// another.
 pub fn reported(fault: &Fault, report: PathBuf) {
     if let Some(one) = kept().iter_mut().rev().find(|one| one.is_same(fault)) {
@@ -115,7 +117,7 @@ pub fn reported(fault: &Fault, report: PathBuf) {
     }
 }
 
-/// Returns the faults that nobody has caught, newest first: those of threads that nobody waits for, and earlier ones.
+/// Returns the panics that nobody has caught, newest first: those of threads that nobody waits for, and earlier ones.
 fn uncaught() -> Vec<Fault> {
     kept().iter().rev().cloned().collect()
 }

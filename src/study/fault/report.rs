@@ -1,5 +1,5 @@
-//! Report on an internal error: one text that says what happened, where and during which work, for the user to send to
-//! the developers.
+//! Report on an internal error: one text that says what happened, where and during which work, which the user can send
+//! to the developers.
 
 use super::Fault;
 use crate::study::StudyError;
@@ -8,21 +8,21 @@ use crate::study::files::write_at_once;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Maximum number of reports that are kept; the oldest are removed.
+/// Maximum number of reports in the folder; the oldest are removed.
 pub const MOST_REPORTS: usize = 30;
 
-/// Content of a report besides the fault itself.
+/// Content of a report other than the panic itself.
 #[derive(Debug, Clone, Default)]
 pub struct Report<'a> {
-    /// Work in progress, e.g. the job and its stage.
+    /// Work in progress, such as the job and its stage.
     pub doing: &'a str,
     /// Last steps of the user, oldest first.
     pub steps: &'a [String],
-    /// Open documents: a title and its text, e.g. the scene in TOML, which is written without changes.
+    /// Open documents: title and text of each, such as the scene in TOML, which is written without changes.
     pub open: &'a [(String, String)],
 }
 
-/// Returns the folder of the user's reports: beside the catalogue, in the user's data folder.
+/// Returns the folder of the user's reports: beside the catalogue, in the user's folder for application data.
 pub fn folder() -> Option<PathBuf> {
     directories::ProjectDirs::from("", "", "cfs").map(|folders| folders.data_dir().join("reports"))
 }
@@ -46,7 +46,7 @@ fn without_home(text: &str) -> String {
     }
 }
 
-/// Appends one fault to a text.
+/// Appends the data of one panic to a text.
 fn append_fault(text: &mut String, fault: &Fault) {
     let place = if fault.place.is_empty() { "not known" } else { &fault.place };
     let [at, thread, backtrace] = [&fault.at, &fault.thread, &fault.backtrace];
@@ -54,7 +54,7 @@ fn append_fault(text: &mut String, fault: &Fault) {
     let _ = write!(text, "message: {}\nplace: {place}\nthread: {thread}\nat: {at}\n{backtrace}", fault.message);
 }
 
-/// Returns the full text of a report.
+/// Returns the full text of a report. `before`: earlier panics.
 fn text(fault: &Fault, before: &[Fault], report: &Report<'_>) -> String {
     let build = if cfg!(debug_assertions) { "debug" } else { "release" };
     let (system, processor) = (std::env::consts::OS, std::env::consts::ARCH);
@@ -100,7 +100,8 @@ fn tidy(folder: &Path) {
     }
 }
 
-/// Writes a report on a fault into a folder, e.g. `2026-11-23T10-22-05.txt` by the time in UTC, and returns its path.
+/// Writes a report on a panic into a folder, under a name made from the time in UTC such as `2026-11-23T10-22-05.txt`,
+/// and returns its path.
 ///
 /// # Errors
 /// Returns an error that names the folder or the file if it cannot be written.

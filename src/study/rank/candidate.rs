@@ -1,4 +1,4 @@
-//! Scene with a product in its ranked apertures.
+//! Scene with a product in the apertures that a ranking fills.
 
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
@@ -7,7 +7,7 @@ use crate::study::product_control::first_keys;
 use crate::study::scene_file::{RankControlKey, SceneFile, SystemKeys};
 
 /// Returns the scene with a product in its ranked apertures. A moving product follows its own control rule if it has
-/// one and `by` allows it, else the aperture's or the scene's `[control]`; without any it is fixed in its
+/// one and `by` allows it, else the `[control]` of the aperture or the scene; if there is none it is fixed in its
 /// representative state.
 ///
 /// # Errors

@@ -1,4 +1,5 @@
-//! Figures of a product in a list, with their errors: by patch-averaged data first, then with sharp beams.
+//! Annual figures of the ranked products, with their errors: computed with patch-averaged data first, then with sharp
+//! beams.
 
 use super::candidate::with_product;
 use super::parts::{Grouping, Parts};
@@ -12,54 +13,56 @@ use crate::study::session::Session;
 use crate::study::system::SystemLibrary;
 use crate::study::year::{Climate, Dgp, Entry, Light, SHADE, Settings, Year, figures, metric, metrics, year_in};
 
-/// Figures of a product: independent of weights and scale limits.
+/// Annual figures of one product in a ranking. They do not depend on weights and scale limits.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Found {
-    /// Figures in the order of the list's keys, with nine significant digits as in tables.
+    /// Values of the figures with their errors, in the order of the list's keys; rounded to nine significant digits as
+    /// in tables.
     pub figures: Vec<Estimate>,
-    /// Parts that each figure is the sum of, in the same order.
+    /// Contributions to each figure by season, sun and zone, in the same order.
     pub parts: Vec<Parts>,
-    /// Reasons why the figures are approximate beyond their errors; empty if they are not.
+    /// Reasons why the figures are less certain than their errors say; empty if there are none.
     pub approximate: Vec<String>,
 }
 
-/// Result of a product: its figures, or the reason why it is excluded.
+/// Result of computing a product in a ranking: its figures, or the reason why it is excluded.
 pub type Outcome = Result<Found, String>;
 
-/// Stage of the computation of a product.
+/// Stage of computing a product: coarse first, then full.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
-    /// A year with data that are constant on their patches, as with `compute.interpolation = "patch"`. Errors include
-    /// the uncertainty by this.
+    /// Year with data that are taken as constant on their patches, as with `compute.interpolation = "patch"`. The
+    /// errors include the uncertainty by this.
     Coarse,
-    /// A year with the interpolation of the scene.
+    /// Year with the interpolation that the scene asks for.
     Full,
 }
 
-/// Relative error of light behind patch-averaged data, because they blur beams. Found with the built-in prisms, whose
-/// fans are as wide as patches: the share of hours above 3000 lx at two sensors is 0.289 by patches and 0.267 by beams,
-/// a difference that 8 % more light makes.
+/// Relative error of illuminances behind patch-averaged data, because they blur beams. Found with the built-in prisms,
+/// whose beams are as wide as patches: the share of hours above 3000 lx at two sensors is 0.289 by patches and 0.267 by
+/// beams, a difference that 8 % more light makes.
 const BLURRED: f64 = 0.1;
 /// Key of the error about a figure that a year does not have.
 const NO_FIGURE: &str = "rank.objective";
-/// Code of the finding on the accuracy of data computed from a description. It is ignored: such data may still be
-/// missing on one machine and exist on another; the figures' errors include it, or the description itself was
-/// evaluated.
+/// Code of the finding on the accuracy of data that are computed from a description. It is ignored, because such data
+/// may still be missing on one machine and exist on another; the figures' errors include it, or the description itself
+/// was evaluated.
 const COMPUTED: &str = "error-target-missed";
-/// Relative error of the light above which figures count as approximate.
+/// Relative error of the illuminances above which figures count as approximate.
 const MAX_RELATIVE_ERROR: f64 = 0.05;
 
-/// Rounds to nine significant digits, as tables do, so that a ranking from tables is the same.
+/// Rounds a number to nine significant digits, the number of digits in tables, so that a ranking from tables is the
+/// same.
 pub(super) fn as_written(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }
 
-/// Input that all products of a list are computed with.
+/// Input with which all products of a list are computed.
 pub(super) struct Setting<'a> {
     pub group: &'a Group,
     pub climate: &'a Climate,
-    /// Climate of the coarse stage: without figures that blurred light does not determine, glare and blinds that direct
-    /// sun on the sensors operates.
+    /// Climate of the coarse stage: without figures that blurred light does not determine, glare and blinds that are
+    /// operated by direct sun on the sensors.
     pub by_cells: &'a Climate,
     pub grouping: &'a Grouping,
     pub library: &'a dyn SystemLibrary,
@@ -67,7 +70,7 @@ pub(super) struct Setting<'a> {
 }
 
 impl Setting<'_> {
-    /// Computes the figures of one product.
+    /// Computes the figures of one product in one stage.
     ///
     /// # Errors
     /// Returns an error for wrong data or control of the product, for a figure that the year does not have, or if
@@ -106,8 +109,9 @@ impl Setting<'_> {
         Ok(found)
     }
 
-    /// Checks that a year of this list can have the list's figures, before all products are computed in vain. A dark
-    /// year has most of them; whether the data provide a missing one is checked with the list's first product.
+    /// Checks that a year of this list can have the figures that the list needs, before all products are computed in
+    /// vain. A year without light has most of them; whether the data provide a missing one is checked with the list's
+    /// first product.
     ///
     /// # Errors
     /// Returns an error that names the missing figure and the existing ones, or if cancelled.
@@ -126,7 +130,7 @@ impl Setting<'_> {
     }
 }
 
-/// Adds the error by blurred patch-averaged data to the errors of a year.
+/// Adds the error by blurring beams in patch-averaged data to the errors of a year.
 fn blur(year: &mut Year) {
     let add = |values: &[f64], errors: &mut [f64]| {
         errors.iter_mut().zip(values).for_each(|(error, value)| *error += BLURRED * value);
@@ -140,7 +144,7 @@ fn blur(year: &mut Year) {
     }
 }
 
-/// Returns a year without any light, in a room with an aperture that transmits direct sun.
+/// Returns a year without any light, in a room with an aperture that would transmit direct sun.
 fn dark(climate: &Climate) -> Year {
     let steps = climate.steps.list.len();
     let places = climate.settings.sensors + climate.settings.eyes.len();
@@ -172,7 +176,7 @@ fn dark(climate: &Climate) -> Year {
     }
 }
 
-/// Returns a figure of a whole year.
+/// Returns an annual figure of a year by its key, with its error. `metrics`: metrics of the year.
 fn figure(year: &Year, metrics: &[Entry], key: &str) -> Result<Estimate, StudyError> {
     if let Some(figure) = metrics.iter().find(|entry| entry.key() == key).and_then(Entry::estimate) {
         return Ok(figure);
@@ -185,7 +189,7 @@ fn figure(year: &Year, metrics: &[Entry], key: &str) -> Result<Estimate, StudyEr
     Err(StudyError::key(NO_FIGURE, format!("the year has no figure \"{key}\"; it has: {keys}")))
 }
 
-/// Returns the reasons why figures are approximate beyond their errors.
+/// Returns the reasons why the figures of a product are less certain than their errors say.
 fn approximation_reasons(product: &Product, year: &Year) -> Vec<String> {
     let mut list = Vec::new();
     if product.provenance.origin == Origin::Measured {

@@ -1,4 +1,5 @@
-//! Stored figures: those of every product whose row has a key, independent of objectives, weights and other products.
+//! Stored figures of ranked products, found by the key of their row. They do not depend on objectives, weights and
+//! other products.
 
 use super::figures::{Found, Outcome, Stage};
 use super::list::{List, Row};
@@ -11,23 +12,23 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub struct Known {
     /// Key of the product in the catalogue.
     pub product: String,
-    /// Key of the row: a hash of all input of the figures.
+    /// Key of the row in the ranking: a hash of all input of the figures.
     pub key: String,
-    /// Stage of the figures.
+    /// Stage in which the figures were computed.
     pub stage: Stage,
-    /// Keys of the figures.
+    /// Keys of the stored figures.
     pub figures: Arc<[String]>,
     /// Figures in the order of their keys, or the reason why the product is excluded.
     pub outcome: Outcome,
 }
 
 impl Known {
-    /// Whether the product has all of these figures, or is excluded.
+    /// Whether all of these figures are stored, or the product is excluded.
     pub fn has(&self, figures: &[String]) -> bool {
         self.outcome.is_err() || figures.iter().all(|figure| self.figures.contains(figure))
     }
 
-    /// Returns the row for a list of these figures; `None` if one is missing.
+    /// Returns the row of a list with these figures; `None` if one is not stored.
     fn row(&self, figures: &[String]) -> Option<Row> {
         let outcome = match &self.outcome {
             Ok(found) => {
@@ -46,8 +47,8 @@ impl Known {
     }
 }
 
-/// Returns a list of stored figures for the given objectives, sorted by product key; products that lack a figure are
-/// left out, to be computed.
+/// Returns a list of products with stored figures for the given objectives, sorted by product key. Products that lack a
+/// figure are left out, because they have to be computed. `head`: list whose scene, climate and azimuth it has.
 pub fn list_of(head: &List, known: &[Arc<Known>], figures: &[String], objectives: &[Objective]) -> List {
     let mut list = List {
         figures: figures.to_vec(),
@@ -59,11 +60,11 @@ pub fn list_of(head: &List, known: &[Arc<Known>], figures: &[String], objectives
     list
 }
 
-/// Store of full figures by row key, shared by threads.
+/// Store of figures from the full stage, by the key of the row; shared by threads.
 #[derive(Debug, Default)]
 pub struct Store(Mutex<BTreeMap<String, Arc<Known>>>);
 
-/// Maximum number of stored products: a hundred products in a hundred rooms, about a kilobyte each.
+/// Maximum number of products whose figures are stored: a hundred products in a hundred rooms, about a kilobyte each.
 const MOST: usize = 10_000;
 
 impl Store {
@@ -72,12 +73,12 @@ impl Store {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the entry of a row key if it has all of these figures.
+    /// Returns the stored figures for the key of a row, if all of the given figures are among them.
     pub fn find(&self, key: &str, figures: &[String]) -> Option<Arc<Known>> {
         self.lock().get(key).filter(|one| one.has(figures)).cloned()
     }
 
-    /// Stores an entry, replacing one of the same key.
+    /// Stores the figures of a product, in place of those with the same key.
     pub fn keep(&self, known: Arc<Known>) {
         let mut all = self.lock();
         if all.len() >= MOST {

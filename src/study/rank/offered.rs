@@ -1,20 +1,21 @@
-//! Figures that objectives can use, with their initial scale limits and direction; and the default objectives of a
+//! Annual figures that can be objectives of a ranking, with their default scale limits; and the default objectives of a
 //! scene without any.
 
 use crate::study::rank_keys::ObjectiveKeys;
 use crate::study::year::{Scale, metric, scales};
 use crate::study::year_keys::YearKeys;
 
-/// A figure that may be an objective.
+/// Annual figure that can be an objective of a ranking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Offered {
-    /// Initial objective, with weight 1.
+    /// Objective with default scale limits, and weight 1.
     pub keys: ObjectiveKeys,
-    /// Whether every year of the scene has the figure at negligible cost: computed for every product, requested or not.
+    /// Whether every year of the scene has the figure at negligible cost, so that it is computed for every product,
+    /// requested or not.
     pub always: bool,
 }
 
-/// Returns the figures that a scene with this year can use.
+/// Returns the figures that can be objectives in a scene with these keys of a year.
 pub fn offered(year: &YearKeys) -> Vec<Offered> {
     let of = |(figure, Scale { better, worst, best, always }): (String, Scale)| Offered {
         keys: ObjectiveKeys { figure, better, worst, best, weight: 1.0 },
@@ -23,8 +24,8 @@ pub fn offered(year: &YearKeys) -> Vec<Offered> {
     scales(year).into_iter().map(of).collect()
 }
 
-/// Returns the default objectives of a scene without any: lighting energy, useful daylight, glare at the first observer
-/// (by DGPs, which every year has), state changes.
+/// Returns the default objectives of a scene that has none: lighting energy, useful daylight, glare at the first
+/// observer (by DGPs, which every year has), state changes.
 pub fn usual_objectives(year: &YearKeys) -> Vec<ObjectiveKeys> {
     let list = offered(year);
     let glare = list.iter().find(|one| one.keys.figure.starts_with("glare.")).map(|one| one.keys.figure.as_str());
@@ -34,7 +35,8 @@ pub fn usual_objectives(year: &YearKeys) -> Vec<ObjectiveKeys> {
     found.map(|keys| if keys.figure == "movements" { ObjectiveKeys { weight: 0.5, ..keys } } else { keys }).collect()
 }
 
-/// Returns the label of a figure and its unit; `%` for shares of 0 … 1. An unknown figure is labelled by its key.
+/// Returns the label of an annual figure and its unit; `%` for shares of 0 … 1. An unknown figure is labelled by its
+/// key.
 pub fn figure_words(key: &str) -> (String, &'static str) {
     metric(key).map_or_else(|| (key.to_owned(), ""), |(metric, index)| (metric.name(index), metric.unit))
 }

@@ -1,4 +1,5 @@
-//! Parts of figures that are sums over hours and places: by season, by sun on the façade, and by zone of the room.
+//! Contributions to annual figures that are sums over hours and places: by season, by sun on the façade, and by zone of
+//! the room.
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Orientation, Surface};
@@ -11,20 +12,21 @@ use crate::study::year::{Climate, SumOver, Year, metric};
 
 /// Names of the seasons, which are whole calendar months; on the southern hemisphere they are shifted by half a year.
 pub const SEASONS: [&str; 4] = ["winter", "spring", "summer", "autumn"];
-/// Names of the two cases: with and without sun on the ranked façade in the middle of the step.
+/// Names of the two cases: with and without direct sun on the ranked façade in the middle of the step.
 pub const SUN: [&str; 2] = ["sun", "no sun"];
 
-/// Parts of a figure; empty if the figure is not a sum.
+/// Contributions to an annual figure, by season, sun and zone; empty if the figure is not a sum.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Parts {
-    /// Names of the zones.
+    /// Names of the zones of the room.
     pub zones: Vec<String>,
-    /// Values by season, within it by sun, within it by zone; they add up to the figure.
+    /// Contributions by season, within it by sun, within it by zone, in the unit of the figure; their sum is the
+    /// figure.
     pub values: Vec<f64>,
 }
 
 impl Parts {
-    /// Returns the names of season, sun and zone of a part.
+    /// Returns the names of season, sun and zone of a contribution, by its index.
     pub fn name(&self, part: usize) -> [&str; 3] {
         let zones = self.zones.len().max(1);
         let word = |list: &'static [&'static str], at: usize| list.get(at).copied().unwrap_or_default();
@@ -33,18 +35,18 @@ impl Parts {
     }
 }
 
-/// Groups of steps and sensors, found once for a climate and an azimuth.
+/// Groups of time steps and sensors by which contributions are summed; found once for a climate and an azimuth.
 #[derive(Debug, Clone)]
 pub struct Grouping {
-    /// Index of season and sun, by step.
+    /// Index of season and sun, for each time step.
     times: Vec<usize>,
-    /// Index of the zone, by sensor.
+    /// Index of the zone, for each sensor.
     zones: Vec<usize>,
     names: Vec<String>,
 }
 
 impl Grouping {
-    /// Creates the groups of a scene with ranked apertures; sun on the façade is determined for the first of them.
+    /// Creates the groups for a scene with ranked apertures; sun on the façade is determined for the first of these.
     ///
     /// # Errors
     /// Returns an error if a key of room, sensors or sky is wrong.
@@ -72,7 +74,7 @@ impl Grouping {
         Ok(Self { times, zones, names })
     }
 
-    /// Returns the parts of a figure of a year; empty if it is not a sum over hours and sensors.
+    /// Returns the contributions to an annual figure, by its key; empty if it is not a sum over hours and places.
     pub fn parts(&self, year: &Year, key: &str) -> Parts {
         match (metric(key).and_then(|(metric, _)| metric.sum), year.settings.lamps.as_ref()) {
             (Some(SumOver::Lighting { floor }), Some(lamps)) => {
@@ -87,7 +89,8 @@ impl Grouping {
         Parts { values: vec![0.0; SEASONS.len() * SUN.len() * zones.len()], zones }
     }
 
-    /// Returns the parts of a mean over sensors and steps. `occupied`: only occupied steps.
+    /// Returns the contributions to the mean of a function of the illuminance \[lx\] over sensors and steps.
+    /// `occupied`: whether only occupied steps count.
     fn places(&self, year: &Year, occupied: bool, of: fn(f64) -> f64) -> Parts {
         let mut parts = self.empty(self.names.clone());
         let counts = |k: usize| !occupied || year.steps.list[k].occupied;
@@ -102,7 +105,7 @@ impl Grouping {
         parts
     }
 
-    /// Returns the energy of the electric lighting, by lighting zone. \[kWh/m² × `scale`\]
+    /// Returns the contributions to the energy of the electric lighting, by lighting zone. \[kWh/m² × `scale`\]
     fn lamps(&self, year: &Year, lamps: &Lamps, scale: f64) -> Parts {
         let names = if lamps.zones.len() == 1 { vec!["whole room".to_owned()] } else { self.names.clone() };
         let mut parts = self.empty(names);
@@ -119,8 +122,9 @@ impl Grouping {
     }
 }
 
-/// Returns the zone of every sensor and the names of the zones: the lighting zones by their depth if there are several;
-/// else the half at the façade and the rear half. Sensors without a lighting zone form an extra zone.
+/// Returns the zone of every sensor, and the names of the zones: the lighting zones in order of their depth if there
+/// are several, else the half of the room at the façade and the rear half. Sensors without a lighting zone form an
+/// additional zone. `depths`: distances of the sensors from the façade; `depth`: depth of the room. \[m\]
 fn zones(depths: &[f64], depth: f64, lamps: Option<&Lamps>) -> (Vec<usize>, Vec<String>) {
     let Some(lamps) = lamps.filter(|lamps| lamps.zones.len() > 1) else {
         let zones = depths.iter().map(|y| usize::from(*y >= 0.5 * depth)).collect();

@@ -1,4 +1,4 @@
-//! Picture of a ranking: bars of scores, or two objectives against each other.
+//! Picture of a ranking: bars of the scores, or two objectives plotted against each other.
 
 use super::offered::figure_words;
 use super::shortlist::{Entry, Look, Page, Shortlist};
@@ -9,15 +9,15 @@ use crate::drawing::plot::{Axis, Plot, Unit};
 use crate::drawing::{Align, Drawing, Frame, Shape, TEXT};
 use crate::texts::{choose as say, fixed};
 
-/// Height of a row of bars. \[points of the drawing\]
+/// Height of a row of bars. \[drawing units\]
 const ROW: f64 = 19.0;
-/// Width of rank and name. \[points of the drawing\]
+/// Width of the columns with rank and name. \[drawing units\]
 const NAME: f64 = 290.0;
-/// Width of the words behind a bar. \[points of the drawing\]
+/// Width of the column with the score, to the right of a bar. \[drawing units\]
 const WORDS: f64 = 110.0;
 
 impl Shortlist {
-    /// Returns the objectives of a plot's axes: the selected ones, else the first two.
+    /// Returns the indices of the two objectives on the axes of the plot: the selected ones, else the first two.
     pub fn axes(&self, look: &Look) -> [usize; 2] {
         let place = |key: &String| self.list.figures.iter().position(|figure| figure == key);
         let last = self.list.figures.len().saturating_sub(1);
@@ -26,7 +26,8 @@ impl Shortlist {
         [x, y]
     }
 
-    /// Returns the axes of two objectives that contain all displayed products with their errors; without points.
+    /// Returns a plot with two objectives as axes, whose ranges contain all displayed products with their errors;
+    /// without points.
     pub fn plot(&self, look: &Look) -> Plot {
         let axes = self.axes(look);
         let shown = self.shown(look);
@@ -45,7 +46,8 @@ impl Shortlist {
         Plot { x: axis(axes[0]), y: axis(axes[1]), series: Vec::new(), guides: Vec::new() }
     }
 
-    /// Draws the displayed products, and returns a line that describes the drawing.
+    /// Draws the displayed products into a frame, as bars or as a plot, and returns a text on how many of them are
+    /// drawn.
     pub fn draw(&self, drawing: &mut Drawing, frame: Frame, look: &Look, inks: &Inks) -> String {
         let shown: Vec<&Entry> = self.shown(look).into_iter().filter(|entry| entry.excluded.is_none()).collect();
         let drawn = if look.page == Page::Plot {
@@ -57,6 +59,7 @@ impl Shortlist {
         say::shown(drawn, self.entries.len())
     }
 
+    /// Draws the displayed products as points with error bars on the plot of two objectives.
     fn points(&self, drawing: &mut Drawing, frame: Frame, shown: &[&Entry], look: &Look, inks: &Inks) {
         let (plot, axes) = (self.plot(look), self.axes(look));
         let panel = chart::panel(drawing, frame, &plot, inks);
@@ -84,7 +87,7 @@ impl Shortlist {
     }
 }
 
-/// Draws as many rows as fit into the frame, and returns their number.
+/// Draws as many products as fit into the frame, each with rank, name and a bar of its score, and returns their number.
 fn bars(drawing: &mut Drawing, frame: Frame, shown: &[&Entry], inks: &Inks) -> usize {
     let count = ((frame.height / ROW).floor() as usize).min(shown.len());
     let (left, width) = (frame.left + NAME, (frame.width - NAME - WORDS).max(40.0));

@@ -1,4 +1,4 @@
-//! Checks of `[rank]`, and the lists that a scene asks for: one for each climate and azimuth.
+//! Checks of the keys `[rank]`, and the lists that a scene asks for: one for each climate and azimuth.
 
 use crate::catalogue::Product;
 use crate::compute::rank::{Better, Objective};
@@ -7,31 +7,31 @@ use crate::study::scene_file::{BetterKey, ObjectiveKeys, RankControlKey, RankKey
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Input of one list: products in one scene, climate and azimuth.
+/// Input of one ranked list: products in one scene, climate and azimuth.
 #[derive(Debug, Clone)]
 pub struct Group {
     /// Name of the scene.
     pub scene: String,
-    /// The weather file as the scene names it.
+    /// Weather file or built-in year, by its name in the scene.
     pub climate: String,
     /// Bearing of the façade's outward normal. \[°\]
     pub azimuth: f64,
-    /// Scene with the list's weather and azimuth, its ranked apertures still empty.
+    /// Scene with the list's weather and azimuth; its ranked apertures have no product yet.
     pub file: Arc<SceneFile>,
-    /// Folder that relative paths of the scene start from.
+    /// Folder from which relative paths of the scene start.
     pub base: PathBuf,
-    /// Keys of the figures, one for each objective.
+    /// Keys of the annual figures, one for each objective.
     pub figures: Vec<String>,
-    /// Objectives of the ranking, in the order of the figures.
+    /// Objectives by which products are ranked, in the order of the figures.
     pub objectives: Vec<Objective>,
-    /// Source of the control rule of moving products.
+    /// Source of the control rule of moving products: product or scene.
     pub control: RankControlKey,
-    /// Products, sorted by their keys.
+    /// Products to be ranked, sorted by their keys.
     pub products: Arc<[Product]>,
 }
 
-/// Returns the lists of a scene: climates in their order, azimuths in theirs. `find` searches products by words;
-/// `words` replace the scene's own.
+/// Returns the lists that a scene asks for: climates in their order, azimuths in theirs. `find`: searches products by
+/// words; `words`: search words that replace those of the scene.
 ///
 /// # Errors
 /// Returns an error if there is no `[rank]` or no ranked aperture, if an objective is not valid, or if no product is
@@ -92,7 +92,7 @@ pub fn groups(
     Ok(list)
 }
 
-/// Checks that no entry occurs twice, so that rows of a table are distinct.
+/// Returns an error if an entry of a key occurs twice, because rows of a table would then not be distinct.
 fn twice(key: &str, list: &[String]) -> Result<(), StudyError> {
     match list.iter().enumerate().find(|(place, one)| list[..*place].contains(one)) {
         Some((_, one)) => Err(StudyError::key(key, format!("{one} is named twice; expected each once"))),
@@ -100,7 +100,7 @@ fn twice(key: &str, list: &[String]) -> Result<(), StudyError> {
     }
 }
 
-/// Returns the objectives of `[rank]`.
+/// Returns the objectives of the keys `[rank]`.
 ///
 /// # Errors
 /// Returns an error that names the wrong key.
@@ -113,6 +113,7 @@ pub fn objectives(keys: &RankKeys) -> Result<Vec<Objective>, StudyError> {
     keys.objective.iter().enumerate().map(|(place, one)| objective(place + 1, one)).collect()
 }
 
+/// Checks one objective, by its number from 1, and returns it with its scale limits.
 fn objective(number: usize, keys: &ObjectiveKeys) -> Result<Objective, StudyError> {
     let wrong = |key: &str, message: String| Err(StudyError::key(format!("rank.objective[{number}].{key}"), message));
     let ObjectiveKeys { figure, better, worst, best, weight } = keys;

@@ -1,4 +1,5 @@
-//! Computation of all products of all lists in parallel, stage by stage: by patch-averaged data, then with sharp beams.
+//! Computation of all products of all lists in parallel, stage by stage: with patch-averaged data first, then with
+//! sharp beams.
 
 use super::figures::{Outcome, Setting, Stage};
 use super::list::{List, Row};
@@ -16,40 +17,40 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-/// One product of one list: indices of the group, and of the product in it.
+/// One product of one list, by indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Item {
     /// Index of the list.
     pub group: usize,
-    /// Index of the product in the list.
+    /// Index of the product in its list.
     pub product: usize,
 }
 
-/// Result of one product, reported as soon as it is available.
+/// Result of one product in one stage, reported as soon as it is available.
 #[derive(Debug, Clone, Copy)]
 pub struct Answer<'a> {
-    /// Product and list of the result.
+    /// Product and list to which the result belongs.
     pub item: Item,
-    /// Stage of the result.
+    /// Stage in which it was computed.
     pub stage: Stage,
-    /// Figures, or the reason why the product is excluded.
+    /// Annual figures, or the reason why the product is excluded.
     pub outcome: &'a Outcome,
 }
 
-/// Data of a list that do not depend on its products.
+/// Data of a list that do not depend on its products: climate and groups of hours.
 struct Ready {
     climate: Climate,
     by_cells: Climate,
     grouping: Grouping,
 }
 
-/// Computes items, those with few states first, and in later stages the best of the earlier stage first. Results do not
-/// depend on the number of threads. All items complete a stage before any enters the next; `report` receives every
-/// result when it is available, from any thread.
+/// Computes products of lists, in the first stage those with few states first, in later stages the best of the earlier
+/// stage first. Results do not depend on the number of threads. All products complete a stage before any enters the
+/// next; `report` receives every result when it is available, from any thread.
 ///
 /// # Errors
-/// Returns an error if a climate cannot be read, if no year has a figure, or if cancelled. Errors of a product are its
-/// outcome.
+/// Returns an error if a climate cannot be read, if no year has a figure, or if cancelled. An error of a single product
+/// is its outcome.
 pub fn run(
     groups: &[Group],
     items: &[Item],
@@ -118,7 +119,8 @@ pub fn run(
     Ok(outcomes.into_iter().flatten().collect())
 }
 
-/// Returns the score of a product by its known figures; negative infinity without any.
+/// Returns the score of a product by its figures so far, which determines the order of computation; negative infinity
+/// if it has none.
 fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
     let score = || {
         let keys = group.file.rank.as_ref()?;
@@ -130,14 +132,14 @@ fn promise(group: &Group, known: Option<&Outcome>) -> f64 {
     score().unwrap_or(f64::NEG_INFINITY)
 }
 
-/// Whether patch-averaged data are quicker than the interpolation of the scene.
+/// Whether patch-averaged data need less computing time than the interpolation that the scene asks for.
 fn is_quicker_by_cells(file: &SceneFile) -> bool {
     file.compute.interpolation != Interpolation::Patch
 }
 
-/// Computes items on separate threads, each of which shares the computation of its product with all processors: work
-/// that waits for a lock must not block the pool whose work the lock's owner waits for. `order`: indices of the items
-/// in the order of computation.
+/// Computes products on separate threads, each of which shares the computation of its product with all processors: work
+/// that waits for a lock must not block the thread pool for whose work the owner of the lock waits. `order`: indices of
+/// the items in the order of computation.
 fn side_by_side(
     items: &[Item],
     order: &[usize],
@@ -179,7 +181,7 @@ fn side_by_side(
     if order.iter().any(|&at| results[at].is_none()) { Err(Cancelled.into()) } else { Ok(results) }
 }
 
-/// Returns the lists of computed items. `keys`: of the items' rows.
+/// Returns the ranked lists of computed products. `keys`: keys of the rows, in the order of `items`.
 pub fn lists_of(groups: &[Group], items: &[Item], outcomes: Vec<Outcome>, keys: &[String]) -> Vec<List> {
     let mut lists: Vec<List> = groups
         .iter()

@@ -1,14 +1,14 @@
-//! A ranking in pieces. A piece is a number n of 0 … N − 1; its part of the work follows from the scenes, the catalogue
-//! and n / N alone.
+//! Division of a ranking into pieces that can be computed on several machines. A piece is a number n of 0 … N − 1; its
+//! share of the work follows from the scenes, the catalogue and n / N alone.
 //!
-//! Pieces are divided by lists first, since all products of a list share the room and the year of light: with no more
-//! pieces than lists, a piece has whole lists; else a list is divided into as many pieces as it gets.
+//! Pieces are divided by lists first, since all products of a list share the room and the light of the year: with no
+//! more pieces than lists, a piece has whole lists; else a list is divided into as many pieces as there are for it.
 
 use super::question::Group;
 use super::run::Item;
 use crate::study::fingerprint::{digest, of_product, of_scene};
 
-/// A piece of a ranking, n of N.
+/// Piece of a ranking, the n-th of N.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Shard {
     /// Number n of the piece, from 0.
@@ -18,10 +18,10 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// The whole ranking in one piece.
+    /// Whole ranking as one piece.
     pub const WHOLE: Self = Self { number: 0, count: 1 };
 
-    /// Reads a piece from "n/N".
+    /// Reads a piece from the text "n/N".
     ///
     /// # Errors
     /// Returns a message that says what is expected.
@@ -32,7 +32,7 @@ impl Shard {
         if number < count { Ok(Self { number, count }) } else { Err(wrong()) }
     }
 
-    /// Returns the items of this piece. `products`: number of products of each list.
+    /// Returns the products of this piece. `products`: number of products of each list.
     pub fn items(self, products: &[usize]) -> Vec<Item> {
         let lists = products.len();
         let mut items = Vec::new();
@@ -57,8 +57,8 @@ impl Shard {
     }
 }
 
-/// Returns the keys of the items' rows: hashes of all input of their figures – scene, files that it names, product,
-/// program.
+/// Returns the keys of the products' rows: hashes of all input of their figures, which is the scene, files that it
+/// names, the product and the program.
 pub fn keys(groups: &[Group], items: &[Item]) -> Vec<String> {
     let scenes: Vec<String> = groups.iter().map(of_group).collect();
     let key = |item: &Item| {
@@ -68,7 +68,7 @@ pub fn keys(groups: &[Group], items: &[Item]) -> Vec<String> {
     items.iter().map(key).collect()
 }
 
-/// Returns the key of a whole ranking: equal for the pieces of one ranking, different for those of two.
+/// Returns the key of a whole ranking: equal for all pieces of the same ranking, different for different ones.
 pub fn run_key(groups: &[Group]) -> String {
     let all = Shard::WHOLE.items(&groups.iter().map(|group| group.products.len()).collect::<Vec<_>>());
     digest(&keys(groups, &all).iter().map(String::as_bytes).collect::<Vec<_>>())

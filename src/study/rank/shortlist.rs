@@ -1,4 +1,4 @@
-//! Ranked list, with everything that table, plot and words display of it.
+//! Ranked list, with everything that table, plot and texts display of it.
 
 use super::list::List;
 use super::table::{csv_text, ranked_table};
@@ -8,54 +8,55 @@ use serde::{Deserialize, Serialize};
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Displayed part of a ranking.
+/// Page of the ranking that is displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Page {
     /// Table of the products.
     #[default]
     Table,
-    /// Two objectives against each other.
+    /// Plot of two objectives against each other.
     Plot,
     /// Objectives and their weights.
     Objectives,
 }
 
-/// Order of the rows.
+/// Order of the rows in the table.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Sort {
-    /// Descending score.
+    /// Score, falling.
     #[default]
     #[serde(rename = "Worth")]
     Score,
-    /// Alphabetical order of names.
+    /// Name, in alphabetical order.
     Name,
-    /// Order by the figure of this key, best first.
+    /// Annual figure with this key, best value first.
     Figure(String),
 }
 
-/// View of a ranking. Products and figures are given by their keys.
+/// Settings with which a ranking is displayed. Products and figures are given by their keys.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Look {
     /// Displayed page.
     pub page: Page,
-    /// Words that names must contain.
+    /// Words that the names of displayed products must contain.
     pub words: String,
-    /// Whether only Pareto-optimal products are displayed.
+    /// Whether only products on the Pareto front are displayed.
     pub front_only: bool,
     /// Whether excluded products are displayed too.
     pub excluded: bool,
-    /// Order of the rows.
+    /// Order of the rows in the table.
     pub sort: Sort,
-    /// Keys of the plot's figures, horizontal and vertical; the first objectives if these keys do not exist.
+    /// Keys of the figures on the axes of the plot, horizontal and vertical; the first objectives if these keys do not
+    /// exist.
     pub axes: [String; 2],
-    /// Product whose reasons are displayed.
+    /// Key of the product whose reasons are displayed.
     pub product: Option<String>,
-    /// Product that it is compared with; `None`: the best.
+    /// Key of the product with which it is compared; `None`: the best.
     pub against: Option<String>,
-    /// Whether only products are displayed that the catalogue's search finds.
+    /// Whether only those products are displayed that the search in the catalogue finds.
     pub in_search: bool,
-    /// Aperture that products are inserted in, from 0; `None`: all that are filled from the catalogue.
+    /// Index, from 0, of the aperture into which products are inserted; `None`: all that are filled from the catalogue.
     pub aperture: Option<usize>,
 }
 
@@ -69,70 +70,72 @@ impl Look {
     }
 }
 
-/// A product of the list.
+/// Product in a displayed ranking.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Entry {
     /// Key of the product in the catalogue.
     pub product: String,
     /// Name of the product.
     pub name: String,
-    /// Figures in the order of the objectives; empty for an excluded product.
+    /// Annual figures in the order of the objectives; empty for an excluded product.
     pub figures: Vec<Estimate>,
-    /// Score of the product, 0 … 1.
+    /// Score of the product with its error, 0 … 1.
     pub score: Estimate,
-    /// First and last rank within the uncertainty, from 1.
+    /// Best and worst rank that are possible within the uncertainty, from 1.
     pub ranks: (usize, usize),
     /// Position relative to the Pareto front; `None` for an excluded product.
     pub place: Option<Place>,
-    /// Reasons why the figures are approximate beyond their errors; empty if they are not.
+    /// Reasons why the figures are less certain than their errors say; empty if there are none.
     pub approximate: Vec<String>,
-    /// Whether the figures are by patch-averaged data so far.
+    /// Whether the figures were computed with patch-averaged data so far, not yet in full.
     pub coarse: bool,
     /// Reason why the product is excluded; `None` if it is ranked.
     pub excluded: Option<String>,
 }
 
-/// Share of one objective in a difference.
+/// Contribution of one objective to the difference between the scores of two products.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Term {
-    /// Index of the objective.
+    /// Index of the objective in the list.
     pub objective: usize,
-    /// Part of the score difference by this objective; the parts of all terms add up to the whole.
+    /// Contribution to the difference of the scores; the contributions of all terms add up to the whole difference.
     pub score_difference: f64,
-    /// Figures of both products.
+    /// Annual figures of both products, for this objective.
     pub figures: [f64; 2],
-    /// Largest parts of the figures' difference, each with season, sun and zone.
+    /// Largest contributions to the difference of the figures, each with season, sun and zone.
     pub parts: Vec<(f64, [String; 3])>,
 }
 
-/// Reasons for the rank of a product, relative to another.
+/// Reasons for the rank of a product, in comparison with another one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reason {
     /// Index of the other product in [`Shortlist::entries`].
     pub other: usize,
-    /// Whether the difference is within the uncertainty, so that the better one is not determined.
+    /// Whether the scores do not differ by more than the uncertainty, so that it is not determined which product is
+    /// better.
     pub open: bool,
-    /// Difference of the scores.
+    /// Difference between the score of the product and that of the other one.
     pub score_difference: f64,
-    /// Terms of the difference, the largest first.
+    /// Contributions of the objectives to the difference, the largest first.
     pub terms: Vec<Term>,
 }
 
-/// A ranked list.
+/// Ranked list of products, ready to be displayed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shortlist {
-    /// List that the entries are made from.
+    /// List from which the ranking was made.
     pub list: List,
     /// Products by descending score, excluded ones last.
     pub entries: Vec<Entry>,
 }
 
-/// Maximum number of stated parts of a figure, and minimum share of the difference that each must have.
+/// Maximum number of contributions to a difference that are stated, and minimum share of the difference that each must
+/// have.
 const PARTS: (usize, f64) = (2, 0.15);
 
 impl Shortlist {
-    /// Creates the ranked list by the list's own objectives. `names`: of the products; `coarse`: keys of those with
-    /// figures by patch-averaged data so far.
+    /// Creates the ranking of a list by its objectives. `names`: names of the products by their keys; `coarse`: keys of
+    /// those with figures by patch-averaged data so far.
     pub fn of(list: List, names: &BTreeMap<String, String>, coarse: &BTreeSet<String>) -> Self {
         let name = |product: &str| names.get(product).cloned().unwrap_or_else(|| product.to_owned());
         let (ranked, ranking) = (list.ranked(), list.ranking(&list.objectives));
@@ -168,12 +171,12 @@ impl Shortlist {
         Self { list, entries }
     }
 
-    /// Returns a product by its key.
+    /// Returns a product of the ranking by its key.
     pub fn entry(&self, product: &str) -> Option<&Entry> {
         self.entries.iter().find(|entry| entry.product == product)
     }
 
-    /// Returns the displayed rows in their order.
+    /// Returns the products that are displayed, in their order.
     pub fn shown(&self, look: &Look) -> Vec<&Entry> {
         let mut rows: Vec<&Entry> = self.entries.iter().filter(|entry| look.shows(entry)).collect();
         match &look.sort {
@@ -193,8 +196,8 @@ impl Shortlist {
         rows
     }
 
-    /// Returns the reasons for a product's rank: relative to `against`, else to the best, for the best itself to the
-    /// second.
+    /// Returns the reasons for a product's rank, in comparison with the product `against`, else with the best; for the
+    /// best itself with the second.
     pub fn reason(&self, product: &str, against: Option<&str>) -> Option<Reason> {
         let place = |key: &str| self.entries.iter().position(|one| one.product == key && one.excluded.is_none());
         let own = place(product)?;
@@ -235,7 +238,7 @@ impl Shortlist {
         Some(Reason { other, open: !surely_above(x, y) && !surely_above(y, x), score_difference: why.utility, terms })
     }
 
-    /// Returns the table, as `cfs rank --out` writes it.
+    /// Returns the ranking as a CSV table, as `cfs rank --out` writes it.
     pub fn csv(&self) -> String {
         csv_text(&ranked_table(std::slice::from_ref(&self.list), &self.list.figures))
     }

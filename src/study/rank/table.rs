@@ -1,31 +1,32 @@
-//! Table of a ranking, as it is written to files.
+//! Table of a ranking for CSV files.
 
 use super::list::{List, Row};
 use super::words::why;
 use crate::drawing::ticks::nine_digits;
 use crate::texts::inert_cell;
 
-/// Columns before the figures.
+/// Names of the columns before the figures.
 pub const WHERE: [&str; 4] = ["scene", "climate", "azimuth", "product"];
-/// Columns after the figures.
+/// Names of the columns after the figures.
 pub const RESULT: [&str; 8] =
     ["utility", "utility_error", "rank_first", "rank_last", "front", "approximate", "excluded", "why"];
-/// Separator of the reasons why figures are approximate.
+/// Separator between the reasons why figures are approximate.
 pub const BETWEEN: &str = "; ";
 
-/// Returns the names of the columns.
+/// Returns the names of all columns. `figures`: keys of the figures.
 pub fn header(figures: &[String]) -> Vec<String> {
     let pairs = figures.iter().flat_map(|figure| [figure.clone(), format!("{figure}_error")]);
     WHERE.map(str::to_owned).into_iter().chain(pairs).chain(RESULT.map(str::to_owned)).collect()
 }
 
-/// Formats a value with all its digits: figures have nine, and are read back unchanged.
+/// Formats a number with all its digits: figures have nine, and read back unchanged.
 pub fn exact(value: f64) -> String {
     // Without the sign of −0.
     format!("{}", value + 0.0)
 }
 
-/// Returns the columns of place and figures; empty ones for figures that this list does not have.
+/// Returns the first columns of a row: scene, climate, azimuth, product and the figures; empty fields for figures that
+/// this list does not have.
 pub fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
     let mut fields = vec![list.scene.clone(), list.climate.clone(), exact(list.azimuth), row.product.clone()];
     for figure in figures {
@@ -37,14 +38,14 @@ pub fn begin(list: &List, row: &Row, figures: &[String]) -> Vec<String> {
     fields
 }
 
-/// Returns the row of an excluded product, from its first columns.
+/// Returns the row of an excluded product. `fields`: its first columns.
 pub fn excluded(mut fields: Vec<String>, reason: &str) -> Vec<String> {
     fields.extend(RESULT.map(|name| if name == "excluded" { reason.to_owned() } else { String::new() }));
     fields
 }
 
-/// Returns the table of whole rankings: lists in their order, best first, excluded products last. The first row has the
-/// column names.
+/// Returns the table of whole rankings: lists in their order, best products first, excluded ones last. Its first row
+/// has the names of the columns.
 pub fn ranked_table(lists: &[List], figures: &[String]) -> Vec<Vec<String>> {
     let mut table = vec![header(figures)];
     for list in lists {

@@ -1,19 +1,20 @@
-//! Reasons for the rank of a product, in words made of the numbers.
+//! Reasons for the rank of a product as an English text, made from the numbers.
 
 use super::figures::Found;
 use super::list::List;
 use crate::compute::rank::{Ranked, Why, surely_above};
 use crate::drawing::ticks::number;
 
-/// Difference of scores below which an objective is not mentioned.
+/// Difference of scores by an objective below which it is not mentioned.
 const LEAST: f64 = 5e-4;
-/// Maximum number of parts of a difference that are stated.
+/// Maximum number of contributions to a difference that are stated.
 const PARTS: usize = 2;
-/// Minimum share of the difference that a stated part must have.
+/// Minimum share of the difference that a stated contribution must have.
 const LARGE: f64 = 0.15;
 
-/// Returns one sentence on a product of a list: against the best (the best itself against the second) and against the
-/// mean of all. `of` is its index in `ranked`, which contains all, with `rows` as [`List::ranked`] returns them.
+/// Returns one sentence on a product of a list: in comparison with the best (the best itself with the second), and with
+/// the mean of all. `of`: index of the product in `ranked`, which contains all ranked products; `rows`: their keys and
+/// figures in the order of [`List::ranked`].
 pub fn why(list: &List, ranked: &[Ranked], rows: &[(&str, &Found)], of: usize) -> String {
     let own = &ranked[of];
     let mean = format!("{} the mean: {}", against(own.to_mean.utility), shares(list, rows[of].1, &own.to_mean, None));
@@ -35,8 +36,8 @@ fn signed(value: f64) -> String {
     format!("{}{}", if value > 0.0 { "+" } else { "" }, number(value, 3))
 }
 
-/// Returns the objectives that a difference consists of, the largest first, with figures and the largest groups of
-/// hours.
+/// Returns the objectives that contribute to a difference, the largest first, with their figures and the largest groups
+/// of hours. `other`: figures of the other product; `None` for the mean.
 fn shares(list: &List, own: &Found, why: &Why, other: Option<&Found>) -> String {
     let mut order: Vec<usize> = (0..why.shares.len()).filter(|&k| why.shares[k].utility.abs() >= LEAST).collect();
     order.sort_by(|&a, &b| why.shares[b].utility.abs().total_cmp(&why.shares[a].utility.abs()));

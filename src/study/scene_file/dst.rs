@@ -1,29 +1,29 @@
-//! Key `site.dst`: rule by which local time is an hour ahead of standard time.
+//! Key `site.dst`: rule of summer time, by which local time is an hour ahead of standard time.
 
 use jiff::ToSpan;
 use jiff::civil::{Date, DateTime, Weekday, date};
 use serde::{Deserialize, Serialize};
 
-/// Rule of summer time.
+/// Value of `site.dst`: rule of summer time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(try_from = "DstAsTyped", into = "DstAsTyped")]
 pub enum DstKey {
-    /// The clock shows local standard time all the year.
+    /// No summer time: the clock shows local standard time throughout the year.
     #[default]
     None,
-    /// Last Sunday of March to last Sunday of October, changed at 01:00 UTC.
+    /// European Union: last Sunday of March to last Sunday of October, changed at 01:00 UTC.
     Eu,
-    /// Second Sunday of March to first Sunday of November, changed at 02:00 by the clock.
+    /// United States: second Sunday of March to first Sunday of November, changed at 02:00 by the clock.
     Us,
-    /// First Sunday of October to first Sunday of April, changed at 02:00 standard time: the states in the south-east
-    /// of Australia.
+    /// South-eastern states of Australia: first Sunday of October to first Sunday of April, changed at 02:00 standard
+    /// time.
     Australia,
-    /// Last Sunday of September to first Sunday of April, changed at 02:00 standard time.
+    /// New Zealand: last Sunday of September to first Sunday of April, changed at 02:00 standard time.
     NewZealand,
-    /// Sunday on or after 2 September to Sunday on or after 2 April, changed at midnight by the clock.
+    /// Chile: Sunday on or after 2 September to Sunday on or after 2 April, changed at midnight by the clock.
     Chile,
-    /// Period from the first to the last day given, both as a whole: month and day of any year, in [`ANY_YEAR`]. The
-    /// last may be earlier in the year than the first.
+    /// Period from a first to a last day, both included: month and day of any year, stored in [`ANY_YEAR`]. The last
+    /// day may be earlier in the year than the first.
     Days(Date, Date),
 }
 
@@ -41,7 +41,7 @@ enum DstAsTyped {
 const RIGHT: &str = "\"none\", \"eu\", \"us\", \"australia\", \"new-zealand\", \"chile\", or the first and the last day, e.g. \
                      [\"03-29\", \"10-25\"]";
 
-/// Rules that have a name, with their names.
+/// Rules that have a name in scene files, with their names.
 const RULES: [(DstKey, &str); 6] = [
     (DstKey::None, "none"),
     (DstKey::Eu, "eu"),
@@ -54,6 +54,7 @@ const RULES: [(DstKey, &str); 6] = [
 impl TryFrom<DstAsTyped> for DstKey {
     type Error = String;
 
+    /// Returns the rule with the given name, or the period between two days.
     fn try_from(typed: DstAsTyped) -> Result<Self, String> {
         let days = match typed {
             DstAsTyped::Word(word) => {
@@ -88,7 +89,7 @@ impl From<DstKey> for DstAsTyped {
     }
 }
 
-/// Returns the Sunday on or after a day of the calendar.
+/// Returns the first Sunday on or after a day of the calendar.
 fn sunday_from(year: i16, month: i8, day: i8) -> Date {
     // Months and days of the rules are of every year's calendar.
     let from = date(year, month, day);
@@ -103,12 +104,13 @@ impl DstKey {
         Self::Days(of_any_year(first), of_any_year(last))
     }
 
-    /// Whether there is no summer time, which is not written.
+    /// Whether the rule is "no summer time", which is not written to the file.
     pub(super) fn is_none(&self) -> bool {
         *self == Self::None
     }
 
-    /// Whether it is summer time at a moment of local standard time. `utc_offset`: UTC offset of standard time. \[h\]
+    /// Whether summer time applies at a moment given in local standard time. `utc_offset`: UTC offset of standard time.
+    /// \[h\]
     fn is_summer(self, standard: DateTime, utc_offset: f64) -> bool {
         let year = standard.year();
         let at = |day: Date, hours: f64| day.to_datetime(jiff::civil::Time::midnight()).saturating_add(minutes(hours));
@@ -132,20 +134,21 @@ impl DstKey {
         if from < to { from <= standard && standard < to } else { from <= standard || standard < to }
     }
 
-    /// Returns the local standard time of a time by the clock. If the clock shows an hour twice in autumn, the first
-    /// is meant.
+    /// Returns the local standard time for a time by the clock. If the clock shows an hour twice in autumn, the first
+    /// one is taken. `utc_offset`: UTC offset of standard time. \[h\]
     pub fn standard(self, clock: DateTime, utc_offset: f64) -> DateTime {
         let ahead = clock.saturating_sub(minutes(1.0));
         if self.is_summer(ahead, utc_offset) { ahead } else { clock }
     }
 
-    /// Returns the time by the clock at a moment of local standard time.
+    /// Returns the time by the clock for a moment given in local standard time. `utc_offset`: UTC offset of standard
+    /// time. \[h\]
     pub fn clock(self, standard: DateTime, utc_offset: f64) -> DateTime {
         if self.is_summer(standard, utc_offset) { standard.saturating_add(minutes(1.0)) } else { standard }
     }
 }
 
-/// Returns hours as a span, to the minute: offsets are not always whole hours.
+/// Returns hours as a time span to the minute, because UTC offsets are not always whole hours.
 fn minutes(hours: f64) -> jiff::Span {
     ((60.0 * hours).round() as i64).minutes()
 }

@@ -1,8 +1,9 @@
-//! Keys of the obstructions: boxes in front of the façade and above the roof, a skyline; and of frame and dirt.
+//! Keys of obstructions in a scene file: boxes in front of the façade and above the roof, building, skyline; and of
+//! frame and dirt.
 
 use serde::{Deserialize, Serialize};
 
-/// Table `[[outside]]`: a vertical box outside the room's own.
+/// Entry `[[outside]]` of a scene file: box outside the room, with vertical sides.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OutsideKeys {
@@ -12,37 +13,37 @@ pub struct OutsideKeys {
     /// Position and size of the box.
     #[serde(rename = "box")]
     pub solid: BoxKeys,
-    /// Diffuse reflectance, 0 … 1, of a box lit by sky, sun and ground; 0.3 where neither this nor a luminance is
-    /// written.
+    /// Diffuse reflectance of the box, 0 … 1, which is lit by sky, sun and ground; 0.3 where neither this nor a
+    /// luminance is given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reflectance: Option<f64>,
-    /// Luminance of all faces instead of a reflectance, independent of incident light. \[cd/m²\]
+    /// Luminance of all faces of the box in place of a reflectance, independent of the light on it. \[cd/m²\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub luminance: Option<f64>,
 }
 
-/// Key `outside.box`: position and size of a box.
+/// Key `outside.box`: position and size of a box in room axes.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BoxKeys {
-    /// Minimum x, y and z, room axes. \[m\]
+    /// Smallest x, y and z of the box before rotation, in room axes. \[m\]
     pub from: [f64; 3],
-    /// Maximum x, y and z before the rotation, room axes. \[m\]
+    /// Largest x, y and z of the box before rotation, in room axes. \[m\]
     pub to: [f64; 3],
-    /// Rotation about the vertical axis through the centre, counter-clockwise seen from above. \[°\]
+    /// Rotation about the vertical axis through the centre of the box, counter-clockwise seen from above. \[°\]
     #[serde(default)]
     pub turn: f64,
 }
 
-/// Section `[building]`: box of the building that the room is part of.
+/// Section `[building]` of a scene file: box of the building of which the room is a part.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BuildingKeys {
-    /// Minimum x, y and z, room axes. \[m\]
+    /// Smallest x, y and z of the building, in room axes. \[m\]
     pub from: [f64; 3],
-    /// Maximum x, y and z, room axes. \[m\]
+    /// Largest x, y and z of the building, in room axes. \[m\]
     pub to: [f64; 3],
-    /// Diffuse reflectance, 0 … 1.
+    /// Diffuse reflectance of the building, 0 … 1.
     #[serde(default = "usual_reflectance")]
     pub reflectance: f64,
 }
@@ -51,31 +52,32 @@ const fn usual_reflectance() -> f64 {
     USUAL_REFLECTANCE
 }
 
-/// Default diffuse reflectance of a box or building: concrete, plaster in the weather.
+/// Default diffuse reflectance of a box or building, as of weathered concrete or plaster.
 pub const USUAL_REFLECTANCE: f64 = 0.3;
 
-/// Key `sky.skyline`: skyline that rises and falls with the bearing.
+/// Key `sky.skyline`: skyline whose altitude varies with the bearing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkylineKeys {
-    /// Compass bearing and altitude, linear between the points, all round. \[°\]
+    /// Points of the skyline: compass bearing (clockwise from north) and altitude, linear between them, all round.
+    /// \[°\]
     pub altitudes: Vec<[f64; 2]>,
-    /// Luminance below the skyline. \[cd/m²\]
+    /// Luminance of everything below the skyline. \[cd/m²\]
     #[serde(default)]
     pub luminance: f64,
 }
 
-/// Returns the default of `aperture.dirt`.
+/// Returns the default of `aperture.dirt`, which is 1 (clean).
 pub(super) const fn clean() -> f64 {
     1.0
 }
 
-/// Whether the dirt factor is the default, which is not written.
+/// Whether the dirt factor has the default value, which is not written to the file.
 pub(super) fn is_clean(dirt: &f64) -> bool {
     *dirt == clean()
 }
 
-/// Whether the share is 0, which is not written.
+/// Whether a frame fraction is 0, which is not written to the file.
 pub(super) fn is_none(share: &f64) -> bool {
     *share == 0.0
 }

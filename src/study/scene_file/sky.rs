@@ -1,4 +1,4 @@
-//! Keys of the section `[sky]`: model, sun, and the illuminances that both are scaled to.
+//! Keys of the section `[sky]` in a scene file: sky model, sun, and the illuminances to which both are scaled.
 
 use super::outside::SkylineKeys;
 use crate::study::weather_keys::{LightKey, OffsetKey};
@@ -6,29 +6,29 @@ use crate::texts::words as texts;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Key `sky.model`: model of the sky.
+/// Key `sky.model`: sky model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SkyModelKey {
-    /// CIE general sky, ISO 15469 types 1–15; 16 = traditional overcast.
+    /// CIE general sky: types 1–15 of ISO 15469, and 16 for the traditional overcast sky.
     Cie,
-    /// Uniform sky, equal luminance in all directions.
+    /// Uniform sky, with the same luminance in all directions.
     Uniform,
     /// Perez all-weather sky.
     Perez,
-    /// Measured sky (scan) of 145 luminances.
+    /// Measured sky (scan) with 145 luminances.
     Scan,
-    /// Weather hour instead of a model: the hour of the weather file that `sky.weather` names.
+    /// No model: sky of the hour in the weather file that `sky.weather` names.
     #[serde(skip)]
     Weather,
 }
 
 impl SkyModelKey {
-    /// Models that a scene can name, in the order of lists.
+    /// Models that a scene can name, in the order in which lists show them.
     pub const ALL: [Self; 4] = [Self::Cie, Self::Uniform, Self::Perez, Self::Scan];
 
-    /// Returns the names of the model: in a list, for a scene's title, and in the header of a luminaire file, which is
-    /// in English.
+    /// Returns three names of the model: for a list, for the title of a scene, and for the header of a luminaire file,
+    /// which is in English.
     pub fn words(self) -> [&'static str; 3] {
         let (list, title, header) = match self {
             Self::Cie => (texts::LIST_CIE, texts::CIE_SKY, "CIE"),
@@ -40,41 +40,41 @@ impl SkyModelKey {
         [list.get(), title.get(), header]
     }
 
-    /// Whether the sky is scaled to stated illuminances. Perez's sky and a measured one bring their own.
+    /// Whether the sky is scaled to given illuminances. The Perez sky and a measured sky have absolute values.
     pub const fn takes_illuminances(self) -> bool {
         !matches!(self, Self::Perez | Self::Scan | Self::Weather)
     }
 
-    /// Returns the default model of a sky without `model`.
+    /// Returns the model of a sky without the key `model`, which is that of the weather hour.
     const fn of_weather() -> Self {
         Self::Weather
     }
 
-    /// Whether the model is not written, since `sky.weather` replaces it.
+    /// Whether the model is not written to the file, because `sky.weather` replaces it.
     const fn is_weather(&self) -> bool {
         matches!(self, Self::Weather)
     }
 }
 
-/// Key `sky.illuminance`: source of the illuminances to which a CIE or uniform sky and its sun are scaled. Perez's sky
-/// and a measured one keep theirs.
+/// Key `sky.illuminance`: source of the illuminances to which a CIE or uniform sky and its sun are scaled. It has no
+/// effect on a Perez sky and a measured sky.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum IlluminanceKey {
-    /// Values of `diffuse_horizontal` and `sun.direct_normal` as written.
+    /// Values of the keys `diffuse_horizontal` and `sun.direct_normal`.
     #[default]
     #[serde(rename = "stated")]
     Stated,
-    /// Values by the sun's altitude: for CIE types 11–15 by `turbidity` and `site.elevation`, for others by RP-21's
-    /// covers.
+    /// Values by the sun's altitude: for CIE types 11–15 from `turbidity` and `site.elevation`, for other types from
+    /// the cloud covers of IES RP-21.
     #[serde(rename = "clear-sky")]
     ClearSky,
-    /// Values by the sun's altitude and RP-21's three covers.
+    /// Values by the sun's altitude and the three cloud covers of IES RP-21.
     #[serde(rename = "rp-21")]
     Rp21,
 }
 
 impl IlluminanceKey {
-    /// Sources in the order of lists.
+    /// Sources in the order in which lists show them.
     pub const ALL: [Self; 3] = [Self::ClearSky, Self::Rp21, Self::Stated];
 
     /// Returns the value of the key in scene files.
@@ -91,36 +91,37 @@ impl IlluminanceKey {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SkyKeys {
-    /// Sky model; not written with `weather`.
+    /// Sky model; not written to the file if `weather` is given.
     #[serde(default = "SkyModelKey::of_weather", skip_serializing_if = "SkyModelKey::is_weather")]
     pub model: SkyModelKey,
-    /// Weather file (.epw, .wea) or built-in year, whose hour at `time` replaces a model and its values: month, day
-    /// and time of day count, the row's own year is used.
+    /// Weather file (.epw, .wea) or built-in year. Its hour at `time` replaces the model and all its values; month, day
+    /// and time of day of `time` are used, the year is that of the file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weather: Option<PathBuf>,
-    /// Source of the weather's illuminances.
+    /// Source of the illuminances in the weather file: irradiances, or illuminances of the file.
     #[serde(default, skip_serializing_if = "LightKey::is_default")]
     pub light: LightKey,
-    /// Time by which the weather's intervals lie later than the file says, or "auto". \[min\]
+    /// Time by which the intervals of the weather file lie later than the file says, or "auto". \[min\]
     #[serde(default, skip_serializing_if = "OffsetKey::is_default")]
     pub sun_offset_minutes: OffsetKey,
     /// CIE sky type, 1 … 16.
     #[serde(rename = "type", default, skip_serializing_if = "Option::is_none")]
     pub cie_type: Option<u8>,
-    /// Source of the illuminances; always written, since scenes of versions without this key lack it.
+    /// Source of the illuminances to which sky and sun are scaled; always written, because scenes of earlier versions
+    /// lack the key.
     #[serde(default)]
     pub illuminance: IlluminanceKey,
-    /// Linke turbidity of the air, for `illuminance = "clear-sky"`.
+    /// Linke turbidity of the atmosphere, for `illuminance = "clear-sky"`.
     #[serde(default = "usual_turbidity", skip_serializing_if = "is_usual_turbidity")]
     pub turbidity: f64,
-    /// Diffuse horizontal illuminance; used where illuminances are stated. \[lx\]
+    /// Diffuse horizontal illuminance, used if `illuminance` says that values are given. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diffuse_horizontal: Option<f64>,
-    /// Position of the sun by angles, and its direct illuminance.
+    /// Position of the sun by angles, and its direct normal illuminance.
     #[serde(default)]
     pub sun: SunKeys,
-    /// Local time by the clock (`site.utc_offset`, `site.dst`), `YYYY-MM-DDTHH:MM[:SS]`, instead of sun angles; beside
-    /// them only its date counts.
+    /// Local time by the clock (`site.utc_offset`, `site.dst`), `YYYY-MM-DDTHH:MM[:SS]`, in place of sun angles; if
+    /// angles are given, only its date is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub time: Option<TimeKey>,
     /// Direct irradiance on the horizontal plane, for the Perez sky. \[W/m²\]
@@ -132,27 +133,27 @@ pub struct SkyKeys {
     /// File with the 145 luminances of Tregenza patches, for a measured sky.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<PathBuf>,
-    /// Uniform skyline over the whole azimuth.
+    /// Uniform skyline, of the same altitude all round.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub obstruction: Option<ObstructionKeys>,
-    /// Skyline that rises and falls with the bearing, instead of `obstruction`.
+    /// Skyline whose altitude varies with the bearing, in place of `obstruction`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub skyline: Option<SkylineKeys>,
 }
 
-/// Default Linke turbidity.
+/// Default Linke turbidity of the atmosphere.
 pub const DEFAULT_TURBIDITY: f64 = 3.0;
 
 const fn usual_turbidity() -> f64 {
     DEFAULT_TURBIDITY
 }
 
-/// Whether the turbidity is the default, which is not written.
+/// Whether the turbidity has the default value, which is not written to the file.
 fn is_usual_turbidity(turbidity: &f64) -> bool {
     *turbidity == DEFAULT_TURBIDITY
 }
 
-/// Key `sky.time`: a string, or a TOML date-time without offset.
+/// Key `sky.time`: local time as a string, or as a TOML date-time without offset.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum TimeKey {
@@ -163,13 +164,13 @@ pub enum TimeKey {
 }
 
 impl TimeKey {
-    /// Returns the key of a moment to the minute, to the second where it is not a whole minute.
+    /// Returns the key for a moment, to the minute, or to the second if it is not a whole minute.
     pub fn of(time: jiff::civil::DateTime) -> Self {
         let format = if time.second() == 0 { "%Y-%m-%dT%H:%M" } else { "%Y-%m-%dT%H:%M:%S" };
         Self::Text(time.strftime(format).to_string())
     }
 
-    /// Returns the text of the time, whichever way it was written.
+    /// Returns the text of the time, in whichever form it was written.
     pub fn text(&self) -> String {
         match self {
             Self::Text(text) => text.clone(),
@@ -178,28 +179,28 @@ impl TimeKey {
     }
 }
 
-/// Key `sky.sun`: position and direct illuminance of the sun.
+/// Key `sky.sun`: position and direct normal illuminance of the sun.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 pub struct SunKeys {
     /// True altitude of the sun, without refraction. \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub altitude: Option<f64>,
-    /// Compass bearing of the sun. \[°\]
+    /// Compass bearing of the sun, clockwise from north. \[°\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub azimuth: Option<f64>,
-    /// Direct illuminance on a plane facing the sun; 0 = no disc. \[lx\]
+    /// Direct normal illuminance by the sun; 0: no solar disc. \[lx\]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub direct_normal: Option<f64>,
 }
 
-/// Key `sky.obstruction`: uniform skyline.
+/// Key `sky.obstruction`: uniform skyline, of the same altitude all round.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstructionKeys {
     /// Altitude of the skyline. \[°\]
     pub altitude: f64,
-    /// Luminance below the skyline. \[cd/m²\]
+    /// Luminance of everything below the skyline. \[cd/m²\]
     #[serde(default)]
     pub luminance: f64,
 }

@@ -1,15 +1,15 @@
-//! Key `aperture.system`: an ideal system, a file, a family of files, a product, luminaire files, or the word
-//! "ranked".
+//! Key `aperture.system` in a scene file: an ideal system, a dataset file, a family of files, a product, luminaire
+//! files, or the word "ranked".
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error as _, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::path::PathBuf;
 
-/// Value of `aperture.system` for an aperture that a ranking fills with every product in turn.
+/// Value of `aperture.system` for an aperture into which a ranking inserts every product in turn.
 pub const RANKED: &str = "ranked";
 
-/// Key `aperture.system`: system of an aperture.
+/// Key `aperture.system`: system that fills an aperture.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SystemKeys {
     /// Ideal system: `{ ideal = "transparent", transmittance = 1.0 }`
@@ -21,33 +21,34 @@ pub enum SystemKeys {
     },
     /// Dataset file: `{ file = "system.xml" }`
     File {
-        /// Path of the dataset, relative to the scene file.
+        /// Path of the dataset file, relative to the scene file.
         path: PathBuf,
-        /// Key of the state in a file with several states.
+        /// Key of the state, if the file has several.
         state: Option<String>,
     },
     /// Product of the catalogue: `{ catalogue = "product-key", state = "45" }`
     Catalogue {
-        /// Key of the product.
+        /// Key of the product in the catalogue.
         key: String,
-        /// Key of the state, or "controlled".
+        /// Key of the state, or "controlled" if a control chooses it.
         state: Option<String>,
     },
-    /// Family of files: `{ states = [{ state = "0", value = 0.0, file = "a.xml" }, …], state = "controlled" }`
+    /// Family of dataset files, one per state: `{ states = [{ state = "0", value = 0.0, file = "a.xml" }, …], state =
+    /// "controlled" }`
     Family {
         /// States of the family, at least one.
         states: Vec<FamilyState>,
-        /// Key of the state, or "controlled".
+        /// Key of the state, or "controlled" if a control chooses it.
         state: Option<String>,
     },
-    /// Luminaire files in the form for a host program: `{ luminaires = "x.index.csv" }`
+    /// Luminaire files that this program has exported, in place of a system: `{ luminaires = "x.index.csv" }`
     Luminaires {
-        /// Index of the luminaire files, relative to the scene file.
+        /// Path of the index of the luminaire files, relative to the scene file.
         index: PathBuf,
-        /// Name of a member, where the index lists a series.
+        /// Name of the member to be used, if the index lists a series.
         set: Option<String>,
     },
-    /// Every product of a ranking in turn: `"ranked"`
+    /// All products of a ranking in turn: `"ranked"`
     Ranked,
 }
 
@@ -84,20 +85,20 @@ impl<'de> Deserialize<'de> for SystemKeys {
     }
 }
 
-/// State of a family, an entry of `aperture.system.states`.
+/// Entry of `aperture.system.states`: state of a family of dataset files.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FamilyState {
     /// Key of the state.
     pub state: String,
-    /// Number of the state: slat angle, or any number by which a control distinguishes states.
+    /// Number of the state: slat angle \[°\], or any number by which a control distinguishes states.
     pub value: f64,
-    /// Path of the dataset, relative to the scene file.
+    /// Path of the dataset file of the state, relative to the scene file.
     pub file: PathBuf,
 }
 
-/// All keys that `aperture.system` may have; which of them belong together is checked afterwards, so that the message
-/// can say so.
+/// All keys that `aperture.system` may have; which of them may be given together is checked afterwards, so that a
+/// message can say so.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct SystemAsTyped {
@@ -122,6 +123,7 @@ struct SystemAsTyped {
 impl TryFrom<SystemAsTyped> for SystemKeys {
     type Error = String;
 
+    /// Checks which keys are given together, and returns the system; an error message says what belongs together.
     fn try_from(typed: SystemAsTyped) -> Result<Self, String> {
         if let SystemAsTyped { luminaires: Some(index), set, .. } = &typed {
             let keys = Self::Luminaires { index: index.clone(), set: set.clone() };
@@ -175,7 +177,7 @@ impl TryFrom<SystemAsTyped> for SystemKeys {
     }
 }
 
-/// Checks that there is a state, and that every state has a unique key and a finite number.
+/// Checks that a family has at least one state, and that every state has a unique key and a finite number.
 fn family(states: &[FamilyState]) -> Result<(), String> {
     if states.is_empty() {
         return Err("states: none; expected at least one".into());
@@ -192,7 +194,7 @@ fn family(states: &[FamilyState]) -> Result<(), String> {
 }
 
 impl SystemAsTyped {
-    /// Returns the keys of a system that is a table; `None` for the others.
+    /// Returns the keys of a system that is written as a table; `None` for others.
     fn of(keys: &SystemKeys) -> Option<Self> {
         Some(match keys.clone() {
             SystemKeys::Ideal { kind, transmittance } => {
@@ -207,12 +209,12 @@ impl SystemAsTyped {
     }
 }
 
-/// Key `system.ideal`: kind of an ideal system.
+/// Key `aperture.system.ideal`: kind of an ideal system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum IdealKind {
     /// Ideal clear system: regular transmission alone.
     Transparent,
-    /// Ideal diffuser: Lambertian emission, τ independent of incidence.
+    /// Ideal diffuser: Lambertian emission, τ independent of the incident direction.
     Diffuse,
 }

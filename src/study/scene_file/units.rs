@@ -1,6 +1,6 @@
 //! Units of the numbers of a scene file, by the names of their keys.
 
-/// Units with their keys, in whatever section these are.
+/// Units, each with the keys whose numbers have it, in any section.
 const UNITS: [(&str, &[&str]); 7] = [
     (
         "m",
@@ -28,7 +28,8 @@ const UNITS: [(&str, &[&str]); 7] = [
     ),
 ];
 
-/// Returns the unit of the number under a key, which is written without the indices of its lists: `aperture.size`.
+/// Returns the unit of the number under a key, which is written without the indices of its lists, such as
+/// `aperture.size`; `None` for numbers without unit.
 pub fn unit_of(key: &str) -> Option<&'static str> {
     // Candidates have the keys of scenes.
     let key = key.strip_prefix("compare.").unwrap_or(key);

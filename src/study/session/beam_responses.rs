@@ -1,39 +1,40 @@
-//! Light of beams by the patches that they light.
+//! Reflected light of beams at the sensors, by the patches of the room that beams light.
 //!
-//! Sensors see the outlines of what beams light in closed form; light after two reflections or more is smooth enough
-//! to be described by patch: a beam costs the patches that it touches. Beams that many systems send in the same
-//! direction are computed once, see [`super::unit_beams`].
+//! The outlines of the areas that beams light are seen in closed form; light after two reflections or more is smooth
+//! enough to be described by patches, so that a beam costs only the patches that it touches. Beams that many systems
+//! send in the same direction are computed once, see [`super::unit_beams`].
 
 use super::weights::{Response, by_walls};
 use crate::compute::dot::{add_scaled, wide};
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::radiosity::Radiosity;
 
-/// Illuminance at the sensors per illuminance of a patch lit by beams.
+/// Illuminances at the sensors per illuminance of each patch of the room by beams.
 pub(crate) struct BeamResponses {
     sensors: usize,
-    /// Start of the columns of each sensor's walls, and the end of the last ones.
+    /// Index of the first column with the walls of each sensor; the last entry is the end.
     walls: Vec<usize>,
-    /// Values patch by patch: light after two reflections or more, its differences of the two densities by wall, and
-    /// light after one reflection.
+    /// Values patch by patch: illuminances after two reflections or more, their differences between the fine and the
+    /// coarse mesh by wall, and illuminances after one reflection.
     rows: Vec<f32>,
 }
 
-/// Light of one or more beams at the sensors.
+/// Illuminances at the sensors by reflected light of one or more beams.
 pub(crate) struct ReflectedBeamLight {
     /// Illuminance after two reflections or more, sensor by sensor. \[lx\]
     pub values: Vec<f64>,
-    /// Uncertainty of `values` by the position of the beams within the patches. \[lx\]
+    /// Uncertainty of `values`, because the position of a beam within a patch is not known. \[lx\]
     pub blur: Vec<f64>,
-    /// Illuminance after one reflection, with light taken as uniform over each patch. \[lx\]
+    /// Illuminance after one reflection, with beams taken as spread uniformly over each patch that they light. \[lx\]
     pub seen: Vec<f64>,
-    /// Differences of the two densities, sensor by sensor, wall by wall.
+    /// Differences of the illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall. \[lx\]
     pub(super) columns: Vec<f32>,
     walls: Vec<usize>,
 }
 
 impl ReflectedBeamLight {
-    /// Returns the differences of the two densities at a sensor, wall by wall.
+    /// Returns the differences of the illuminance at a sensor between the fine and the coarse mesh, wall by wall.
+    /// \[lx\]
     pub fn walls(&self, sensor: usize) -> impl Iterator<Item = f64> {
         let [from, to] = [sensor, sensor + 1].map(|s| self.walls[s] - self.walls[0]);
         self.columns[from..to].iter().map(|&e| f64::from(e))
@@ -41,8 +42,8 @@ impl ReflectedBeamLight {
 }
 
 impl BeamResponses {
-    /// Creates the responses to beams. `gather`: what the sensors receive from the patches of both densities;
-    /// `sensors`: their weights.
+    /// Creates the responses to beams. `gather`: weights with which the sensors see the patches of the fine and the
+    /// coarse mesh; `sensors`: responses of the sensors to the first illuminances of the patches.
     pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {
         let count = sensors.len();
         let mut walls = vec![count];
@@ -72,7 +73,7 @@ impl BeamResponses {
         Self { sensors: count, walls, rows }
     }
 
-    /// Returns light of no beams.
+    /// Returns illuminances of 0, for no beams.
     pub fn dark(&self) -> ReflectedBeamLight {
         let (count, walls) = (self.sensors, self.walls.clone());
         let dark = || vec![0.0; count];
@@ -85,8 +86,8 @@ impl BeamResponses {
         }
     }
 
-    /// Returns the illuminance at the sensors after one reflection, with light taken as uniform over each patch.
-    /// \[lx\]
+    /// Returns the illuminances at the sensors after one reflection, with beams taken as spread uniformly over each
+    /// patch. `direct`: illuminances of the patches by beams. \[lx\]
     pub fn seen(&self, direct: &[f64]) -> Vec<f64> {
         let (count, last) = (self.sensors, self.walls[self.sensors]);
         let mut seen = vec![0.0; count];
@@ -95,7 +96,8 @@ impl BeamResponses {
         seen
     }
 
-    /// Computes the light at the sensors from illuminances of the patches by beams.
+    /// Computes the illuminances at the sensors by reflected light of beams. `direct`: illuminances of the patches by
+    /// the beams. \[lx\]
     pub fn of(&self, radiosity: &Radiosity, direct: &[f64]) -> ReflectedBeamLight {
         let (count, last) = (self.sensors, self.walls[self.sensors]);
         let rows = |light| self.rows.chunks_exact(last + count).zip(light).filter(|(_, e): &(_, &f64)| **e != 0.0);

@@ -1,4 +1,5 @@
-//! Apertures behind boxes and skylines: the light of their parts, direct at the sensors and on the room's surfaces.
+//! Apertures behind boxes and skylines, whose parts see different outsides: their light, and the direct light from them
+//! at the sensors and on the surfaces of the room.
 
 use super::outside_seen::OutsideSeen;
 use super::part::{Part, WHOLE, area, overlap, part_of};
@@ -27,48 +28,50 @@ use glam::{DVec2, DVec3};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Light of one aperture, part by part.
+/// Light of one aperture behind obstructions, in parts with light of their own.
 pub(super) struct Split {
-    /// Means over the aperture of all light but regular transmission, which is seen in its place.
+    /// Light of the whole aperture as means over it, except regular transmission, which is evaluated for each sensor.
     pub whole: Emission,
     /// Luminous exitance of the aperture on its room side. \[lm/m²\]
     pub exitance: Estimate,
     /// Regular transmission of sky and ground: the transmittance, and its flux per area. \[lm/m²\]
     regular: Option<(AngularTransmittance, Estimate)>,
-    /// Uniform part of the scattered light of sky and ground, by part of the aperture.
+    /// Scattered light of sky and ground that has the same luminance in all directions, by part of the aperture.
     smooth: Vec<Smooth>,
-    /// Parts of the aperture with the other light of sky and ground.
+    /// Parts of the aperture, with the remaining light of sky and ground.
     leaves: Vec<Leaf>,
-    /// Scattered sunlight, and parts of the aperture from the whole of it downwards.
+    /// Scattered sunlight per sunlit area, and the tiles of the aperture on which the sun shines.
     sun: Option<(SunTile, Emission)>,
-    /// Scattered light for the room's patches: of sky and ground, and of the sun.
+    /// Scattered light for the patches of the room: of sky and ground, and of the sun.
     scattered: [ScatteredParts; 2],
     /// Beams of the sun, per sunlit area of the aperture.
     beams: Vec<BeamLight>,
     /// Sunlit pieces of the aperture, in the room frame. \[m\]
     lit: Vec<Vec<DVec3>>,
-    /// Sunlit pieces of the aperture for points of the sun's rim; only where beams are redirected. \[m\]
+    /// Sunlit pieces of the aperture as seen from points on the rim of the solar disc, in the room frame; only if beams
+    /// are redirected. \[m\]
     rim: Vec<Vec<Vec<DVec3>>>,
     lit_share: f64,
-    /// Uniform luminance of the sunlit pieces by the sun's scattered light. \[cd/m²\]
+    /// Luminance of the sunlit pieces by scattered sunlight that is the same in all directions. \[cd/m²\]
     glow: Estimate,
-    /// Note on the parts into which the aperture was split, with the reason.
+    /// Note on the parts into which the aperture was divided, and why.
     pub seen: OutsideSeen,
 }
 
-/// Scattered light, as finely as the patches of the room can distinguish it.
+/// Scattered light of an aperture, in the few parts that the patches of the room can distinguish.
 #[derive(Default)]
 struct ScatteredParts {
-    /// Pieces with uniform light: outline and luminous exitance. \[m, lm/m²\]
+    /// Pieces of the aperture with light that is the same in all directions: outline \[m\] and luminous exitance
+    /// \[lm/m²\].
     even: Vec<(Vec<DVec3>, f64)>,
-    /// Few parts of the aperture with all other light: each direction costs weights of all patches.
+    /// Few parts of the aperture with all other light, since each needs weights of all patches.
     quarters: Vec<(Aperture, Emission)>,
-    /// Pieces with the total exitance of the light in `quarters`, which show where it leaves; empty where the parts
-    /// show that. \[m, lm/m²\]
+    /// Smaller pieces with the total exitance of the light in `quarters`, which show more finely where it leaves:
+    /// outline \[m\] and luminous exitance \[lm/m²\]. Empty if the parts themselves are fine enough.
     pieces: Vec<(Vec<DVec3>, f64)>,
 }
 
-/// Smallest part of an aperture that holds its sunlit area, the sunlit share of that part, and its halves where the
+/// Part of an aperture that just contains its sunlit area, with the sunlit share of the part, and its halves if the
 /// share is below 1.
 struct SunTile {
     part: Aperture,
@@ -76,27 +79,28 @@ struct SunTile {
     halves: Vec<SunTile>,
 }
 
-/// Size of tiles across a shadow edge down to which they are halved, as a share of the aperture's side.
+/// Size of a tile across a shadow edge, as a share of the aperture's side, down to which tiles are halved.
 const SUN_TILE: f64 = 1.0 / 32.0;
-/// Maximum size of a tile across a shadow edge, relative to its distance from the sensor.
+/// Maximum ratio of the size of a tile across a shadow edge to its distance from the sensor.
 const SUN_TILE_AWAY: f64 = 0.1;
-/// Number of parts along each side of an aperture in which the room's patches see light by cells.
+/// Number of parts along each side of an aperture for which the patches of the room receive light by emergent cells.
 const QUARTERS: usize = 2;
-/// Maximum number of pieces along each side of a part in which the room's patches see uniform light, for up to
-/// [`MANY_PARTS`] parts.
+/// Maximum number of pieces along each side of a part from which the patches of the room receive light that is the same
+/// in all directions, for up to [`MANY_PARTS`] parts.
 const PIECES: f64 = 4.0;
-/// Number of aperture parts above which a part is not subdivided for uniform light.
+/// Number of parts of an aperture above which none is subdivided for light that is the same in all directions.
 const MANY_PARTS: usize = 24;
-/// Maximum number of parts of which every point is seen by itself in the luminous intensity distribution; of more, one
-/// point per part.
+/// Maximum number of parts for which the luminous intensity distribution uses nine points per part; for more, it uses
+/// one point per part.
 const FEW_PARTS: usize = 8;
-/// Relative error of the outside seen past edges by regular transmission, beyond the cubature's own.
+/// Relative error of the outside seen past edges of boxes by regular transmission, in addition to that of the cubature.
 const PAST_EDGES: f64 = 1e-4;
-/// Relative accuracy of the light of regular transmission on a patch: it is scaled to the flux that enters.
+/// Relative accuracy of the illuminance of a patch by regular transmission; the sum over patches is scaled to the flux
+/// that enters.
 const AT_PATCHES: f64 = 1e-2;
 
 impl Session {
-    /// Computes the light of an aperture behind boxes or a skyline.
+    /// Computes the light of one aperture behind boxes or a skyline.
     ///
     /// # Errors
     /// Returns an error if cancelled.
@@ -170,7 +174,8 @@ impl Session {
         Ok(split)
     }
 
-    /// Computes the light of all apertures of a scene with obstructions or a skyline by bearing; empty without these.
+    /// Computes the light of all apertures of a scene with boxes outside or a skyline that varies with the bearing;
+    /// empty without these.
     pub(super) fn splits(&self, scene: &Scene, progress: &dyn Progress) -> Result<Vec<Split>, StudyError> {
         if scene.outside.surroundings().is_none() {
             return Ok(Vec::new());
@@ -185,7 +190,7 @@ impl Session {
         Ok(all.collect::<Result<_, Cancelled>>()?)
     }
 
-    /// Computes the direct light at the sensors.
+    /// Computes the direct light at the sensors from apertures behind obstructions.
     pub(super) fn direct_behind(
         &self,
         scene: &Scene,
@@ -206,8 +211,8 @@ impl Session {
 }
 
 impl SunTile {
-    /// Creates the tiles of a part. `reached`: returns the bounds of the sunlit area of a part, and its sunlit share;
-    /// what lies in the shade belongs to no tile.
+    /// Creates the sunlit tiles of a part of an aperture. `reached`: returns the bounds of the sunlit area of a part,
+    /// and its sunlit share. Shaded areas belong to no tile.
     fn of(part: Part, aperture: &Aperture, reached: &dyn Fn(Part) -> (Part, f64)) -> Self {
         let (part, lit) = reached(part);
         let [w, h] = part.map(|[low, high]| high - low);
@@ -224,7 +229,7 @@ impl SunTile {
         Self { part: part_of(aperture, part), lit, halves }
     }
 
-    /// Calls `on_tile` for every tile that is small enough for a sensor at `eye`, with its sunlit share.
+    /// Calls `on_tile` for every tile that is small enough for a sensor at `eye`, with the sunlit share of the tile.
     fn visit(&self, eye: DVec3, on_tile: &mut dyn FnMut(&Aperture, f64)) {
         let small = self.part.size[0].max(self.part.size[1]) <= SUN_TILE_AWAY * self.part.distance(eye);
         if self.halves.is_empty() || small {
@@ -237,14 +242,16 @@ impl SunTile {
     }
 }
 
-/// Returns the parts in which the room's patches see an aperture.
+/// Returns the parts of an aperture from which the patches of the room receive light by cells. `same`: whether the
+/// aperture is uniform, so that one part is enough.
 fn quarters(same: bool) -> Vec<Part> {
     let count = if same { 1 } else { QUARTERS };
     let limits = |at: usize| [at as f64 / count as f64, (at + 1) as f64 / count as f64];
     (0..count * count).map(|k| [limits(k % count), limits(k / count)]).collect()
 }
 
-/// Returns the scattered light of sky and ground for the room's patches.
+/// Returns the scattered light of sky and ground for the patches of the room. `leaves`: parts of the aperture; `tiles`:
+/// their subdivision with the light of each; `same`: whether the aperture is uniform.
 fn scattered_parts(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emission)], same: bool) -> ScatteredParts {
     let quarter = |part: Part| {
         let shares = tiles.iter().map(|(tile, light)| (overlap(part, *tile), light));
@@ -269,7 +276,8 @@ fn scattered_parts(aperture: &Aperture, leaves: &[Leaf], tiles: &[(Part, Emissio
     ScatteredParts { even: of(0), quarters, pieces: if on_cells { of(1) } else { Vec::new() } }
 }
 
-/// Returns the note for the plan of the computation.
+/// Returns the note on how the aperture was divided, for the plan of the computation. `share`: sunlit share of the
+/// aperture.
 fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -> OutsideSeen {
     let scatters = leaves.iter().any(|leaf| leaf.any().fluxes().iter().any(|flux| *flux > 0.0));
     let most = leaves.iter().map(|leaf| leaf.change[0].max(leaf.change[1])).fold(0.0, f64::max);
@@ -283,7 +291,7 @@ fn seen(index: usize, leaves: &[Leaf], same: bool, sun: &Emission, share: f64) -
 }
 
 impl Split {
-    /// Creates the light of luminaire files, which does not depend on obstructions.
+    /// Creates the light of an aperture that is replaced by luminaire files, which does not depend on obstructions.
     fn of_lamps(scene: &Scene, index: usize, whole: Emission) -> Self {
         Self {
             exitance: whole.exitance(&scene.facing(index)),
@@ -303,7 +311,7 @@ impl Split {
         }
     }
 
-    /// Adds scattered sunlight on sunlit tiles, and on small ones across the shadows' edges.
+    /// Adds scattered sunlight on the sunlit tiles of the aperture, which are small across the edges of shadows.
     fn add_sun_tiles(&mut self, aperture: &Aperture, sun: &Emission, scene: &Scene, index: usize) {
         if self.lit_share <= 0.0 || (sun.cells.is_empty() && sun.bands.is_empty()) {
             return;
@@ -339,8 +347,8 @@ impl Split {
         }
     }
 
-    /// Returns the luminous intensity distribution of the whole aperture: the mean of the parts, including sky and
-    /// ground seen by regular transmission.
+    /// Returns the luminous intensity distribution of the whole aperture: the sum over its parts, with sky and ground
+    /// as each part sees them by regular transmission.
     pub fn lid(&self, scene: &Scene, index: usize) -> LidResult {
         let aperture = &scene.apertures[index].aperture;
         let facing = scene.facing(index);
@@ -354,7 +362,7 @@ impl Split {
         }
     }
 
-    /// Returns the direct light at one sensor.
+    /// Returns the direct light of the aperture at one sensor.
     fn at(&self, sensor: &Sensor, aperture: &Aperture, facing: &Facing<'_>, tolerance: Tolerance) -> DirectLight {
         let mut sum = DirectLight::default();
         let Some(around) = facing.outside.surroundings() else { return sum };
@@ -400,8 +408,8 @@ impl Split {
         sum
     }
 
-    /// Adds the light on the surfaces of the room. `weights`: what the patches receive from a part by the cells of a
-    /// basis.
+    /// Adds the light of the aperture on the surfaces of the room to `first`. `weights`: returns the weights with which
+    /// the patches receive light from a part of an aperture by the cells of a basis.
     pub fn add_to(
         &self,
         first: &mut FirstLight,

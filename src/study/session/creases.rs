@@ -1,29 +1,31 @@
-//! Lines across an aperture at which light on it has a kink or a step: where the planes of nearby boxes' faces meet
-//! it.
+//! Creases of the light on an aperture: lines at which the illuminance from outside has a kink or a step, where the
+//! plane of a nearby box's face meets the aperture.
 //!
-//! On one side of a crease, the face is turned away, on the other it is seen; a box that stands on the glass ends
-//! there. No point beside a crease shows it, so an aperture is cut along the creases before its points are computed.
+//! On one side of a crease the face of the box is visible from the aperture, on the other it is not; a box that touches
+//! the glass ends there. Points beside a crease do not reveal it, so an aperture is cut along its creases before light
+//! is computed at points of its parts.
 
 use super::part::{Part, WHOLE, halves};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::surroundings::solid::{Face, Solid};
 use std::f64::consts::PI;
 
-/// Change of slope above which a part is cut along a crease, relative: the slope's jump times the part's length. A
-/// parabola over the part is off by 0.02 of that in the mean.
+/// Relative change of slope above which a part is cut along a crease: the jump of the slope times the length of the
+/// part. A parabola over the part then has a mean error of 0.02 of that.
 const BENDS: f64 = 0.05;
-/// Distance from the glass at which a face that begins nearer is taken to begin, relative to the part's length: the
+/// Minimum distance of a face from the glass that is assumed in this estimate, relative to the length of the part; the
 /// jump would be infinite at 0.
 const NEAREST: f64 = 0.02;
-/// Distance from a border up to which a line is on it, relative to the aperture's side.
+/// Distance from the border of an aperture up to which a crease counts as lying on it, relative to the side of the
+/// aperture.
 const ON_BORDER: f64 = 1e-4;
 
-/// Line across an aperture at which light has a kink or a step.
+/// Crease of the light on an aperture: line at which the illuminance from outside has a kink or a step.
 pub(super) struct Crease {
-    /// Side of the aperture that the line cuts, and the position on it as a share.
+    /// Index of the side of the aperture that the line cuts, and its position along that side as a share.
     axis: usize,
     at: f64,
-    /// Extent of the face along the line, then its range of distances from the aperture's plane. \[m\]
+    /// Extent of the box's face along the line, and below its range of distances from the plane of the aperture. \[m\]
     along: [f64; 2],
     away: [f64; 2],
     /// Size of the aperture. \[m\]
@@ -31,8 +33,8 @@ pub(super) struct Crease {
 }
 
 impl Crease {
-    /// Creates the line where the plane of a box's face meets an aperture; `None` where it does not. `own`: the
-    /// aperture as a face. Lines that run askew over a roof are not found here.
+    /// Creates the crease where the plane of a box's face meets an aperture; `None` where it does not. `own`: the
+    /// aperture as a face. Lines that run obliquely over a roof are not found.
     fn of(face: &Face, own: &Face, aperture: &Aperture) -> Option<Self> {
         let slopes = [own.u, own.v].map(|axis| face.normal.dot(axis));
         let axis = match slopes.map(|slope| slope.abs() > 1e-9) {
@@ -60,9 +62,9 @@ impl Crease {
         })
     }
 
-    /// Returns the maximum change of slope of light across the line over a part: the jump of the slope of its
-    /// illuminance when the face becomes visible in front of a uniform outside, ∫ y/(π r⁴) dA, times the part's
-    /// length.
+    /// Returns the maximum relative change of slope across the line over a part: the jump of the slope of the
+    /// illuminance when the face becomes visible in front of a uniform outside, ∫ y/(π r⁴) dA, times the length of the
+    /// part.
     fn bends(&self, part: Part) -> f64 {
         let [low, high] = part[self.axis];
         if self.at <= low + ON_BORDER || self.at >= high - ON_BORDER {
@@ -80,13 +82,13 @@ impl Crease {
     }
 }
 
-/// Returns all lines that the planes of the boxes' faces draw over an aperture.
+/// Returns the creases that the faces of all boxes cause on an aperture. `own`: the aperture as a face.
 pub(super) fn creases(aperture: &Aperture, own: &Face, solids: &[Solid]) -> Vec<Crease> {
     let faces = solids.iter().flat_map(|solid| (0..6).map(|number| solid.face(number)));
     faces.filter_map(|face| Crease::of(&face, own, aperture)).collect()
 }
 
-/// Cuts the aperture along its creases, deepest first, into at most `most` parts.
+/// Cuts the aperture along its creases, that with the largest change of slope first, into at most `most` parts.
 pub(super) fn cut_along(creases: &[Crease], most: usize) -> Vec<Part> {
     let deepest = |part: Part| {
         let bends = creases.iter().map(|crease| (crease.bends(part), crease));

@@ -1,22 +1,22 @@
-//! Data part of the uncertainty of diffuse light at the sensors, as shares of the light: for the skies of a year.
+//! Uncertainty of diffuse illuminances by the BSDF data, as shares of the illuminances, for the skies of a year.
 
 use super::Session;
 use crate::compute::estimate::Progress;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 
-/// Data part of the uncertainty of one aperture's diffuse light, relative.
+/// Uncertainty of the diffuse illuminances by one aperture that is due to its BSDF data, relative to them.
 #[derive(Debug, Clone, Default)]
 pub struct DataShare {
-    /// Share of the direct component, by sensor; empty without uncertainty.
+    /// Relative uncertainty of the direct component, by sensor; empty if there is none.
     pub direct: Vec<f64>,
-    /// Share of the interreflected component.
+    /// Relative uncertainty of the interreflected component.
     pub reflected: f64,
 }
 
 impl Session {
-    /// Computes the shares under the scene's own sky, by aperture. `known`: returns whether the uncertainty of the
-    /// light on an aperture's patches is included elsewhere.
+    /// Computes the relative uncertainties under the scene's own sky, by aperture. `known`: whether the uncertainty of
+    /// an aperture's light on the cells of its data is included elsewhere.
     ///
     /// # Errors
     /// Returns an error if cancelled.

@@ -1,5 +1,5 @@
-//! Light that leaves an aperture on its room side: by its description for the actual sun position, by its data for all
-//! other light; results of both are kept.
+//! Light that leaves an aperture on its room side: computed by the system's description for sunlight from the actual
+//! sun position, and by its data for all other light. Results of both are stored.
 
 use super::Session;
 use crate::compute::btdf::{Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
@@ -12,12 +12,13 @@ use crate::study::system::SystemModel;
 use std::sync::Arc;
 
 impl Session {
-    /// Computes the light that leaves an aperture on its room side, for the scene's outside, frame and dirt included.
+    /// Computes the light that leaves an aperture on its room side under the scene's outside, reduced by frame and
+    /// dirt.
     pub(crate) fn emission(&self, scene: &Scene, aperture: usize) -> Emission {
         self.emission_under(scene, aperture, &scene.facing(aperture))
     }
 
-    /// Computes the light that leaves an aperture on its room side, for a given outside.
+    /// Computes the light that leaves an aperture on its room side under a given outside and sun.
     pub(super) fn emission_under(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         if let Some(lamps) = &scene.apertures[aperture].lamps {
             return Emission::lamps(Arc::clone(lamps));
@@ -39,7 +40,7 @@ impl Session {
         }
     }
 
-    /// Computes the light that a described system makes of sky and ground.
+    /// Computes the light that a described system emits under sky and ground.
     fn diffuse(&self, scene: &Scene, aperture: usize, model: &SystemModel, facing: &Facing<'_>) -> Emission {
         if !facing.outside.is_lit() {
             return Emission::dark();
@@ -50,13 +51,13 @@ impl Session {
         self.sky_through(model).1.emission(facing)
     }
 
-    /// Returns the responses of a described system to all diffuse light; computed or kept.
+    /// Returns the emergent light of a described system for each incident patch, computed or stored.
     pub(crate) fn sky_through(&self, model: &SystemModel) -> Arc<(SystemModel, SkyThrough)> {
         let key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64];
         self.skies.find(key, || (model.clone(), SkyThrough::new(model.0.as_ref())))
     }
 
-    /// Returns the light that a described system makes of the sun; computed or kept.
+    /// Returns the light that a described system emits under the sun, computed or stored.
     fn sun_through(&self, model: &SystemModel, facing: &Facing<'_>) -> Arc<(SystemModel, SunThrough)> {
         let mut key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64, facing.surface as u64];
         // Everything that decides how much of the disc is visible, and where.
@@ -70,7 +71,7 @@ impl Session {
         self.suns.find(key, || (model.clone(), SunThrough::new(model.0.as_ref(), facing)))
     }
 
-    /// Computes the light that the system's data make of the outside.
+    /// Computes the light that a system emits according to its data, under the whole outside.
     fn by_data(&self, scene: &Scene, aperture: usize, facing: &Facing<'_>) -> Emission {
         let one = &scene.apertures[aperture];
         let btdf = one.transmission().expect("a resolved scene has only systems with transmission data");
@@ -86,6 +87,7 @@ impl Session {
         emission
     }
 
+    /// Computes the scattered light that a system emits according to its data.
     fn scattered_by_data(&self, scene: &Scene, one: &SceneAperture, btdf: &Btdf, facing: &Facing<'_>) -> Emission {
         match &btdf.scattered {
             // Used as given.
@@ -114,7 +116,8 @@ impl Session {
         }
     }
 
-    /// Returns the beams extracted from a matrix; computed or kept.
+    /// Returns the beams extracted from patch-averaged data for the position of the sun, computed or stored; `None` if
+    /// there is no sun in front of the aperture.
     fn peaks(
         &self,
         one: &SceneAperture,
@@ -130,7 +133,7 @@ impl Session {
         Some(self.peaks.find(key, || (Arc::clone(dataset), Peaks::new(matrix, sun))))
     }
 
-    /// Returns the interpolator between the directions of a dataset; created or kept.
+    /// Returns the interpolator between the incident directions of a dataset, created or stored.
     pub fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {
         // The interpolator keeps the data alive, so that no others can have their address.
         self.interpolators.find(vec![Arc::as_ptr(data) as u64], || Interpolator::new(Arc::clone(data)))

@@ -1,5 +1,5 @@
-//! Distant surroundings, a skyline of uniform altitude or one that rises and falls: its light is a constant, and it
-//! hides the same directions from every point.
+//! Distant surroundings, a skyline of uniform altitude or one that varies with the bearing: its light is a constant,
+//! and it hides the same directions from every point.
 
 use crate::compute::sky::{Distribution, Outside};
 use crate::compute::surroundings::Surroundings;
@@ -7,18 +7,18 @@ use crate::compute::surroundings::skyline::Skyline;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Outsides of which the constant light of all others is composed.
+/// Outsides of luminance 1 by which light of ground and skyline is computed once for all skies.
 pub(crate) struct Constants {
-    /// Outside with black sky, black skyline and ground of luminance 1.
+    /// Outside with a ground of luminance 1; sky and skyline are black.
     pub ground: Option<Outside>,
-    /// Outside with black sky and ground and a skyline of luminance 1; `None` without a skyline.
+    /// Outside with a skyline of luminance 1; sky and ground are black. `None` without a skyline.
     pub skyline: Option<Outside>,
-    /// Outside with a sky of luminance 1 and all else black; `None` without a skyline that rises and falls.
+    /// Outside with a sky of luminance 1; all else is black. `None` without a skyline that varies with the bearing.
     pub even: Option<Outside>,
 }
 
 impl Constants {
-    /// Creates the outsides with the skyline of `outside`.
+    /// Creates these outsides with the skyline of `outside`.
     pub fn of(outside: &Outside) -> Self {
         let sky = |luminance: f64| Outside::new(Distribution::uniform(), PI * luminance).ok();
         let before = |luminance| with_luminance(outside, luminance);
@@ -38,7 +38,7 @@ impl Constants {
     }
 }
 
-/// Returns a black outside with the skyline of `outside`, black as well.
+/// Returns an outside without any light, with the skyline of `outside`.
 pub(crate) fn dark(outside: &Outside) -> Option<Outside> {
     let black = Outside::new(Distribution::uniform(), 0.0).ok()?;
     match with_luminance(outside, 0.0) {
@@ -47,7 +47,7 @@ pub(crate) fn dark(outside: &Outside) -> Option<Outside> {
     }
 }
 
-/// Returns the skyline that rises and falls; `None` where there is none.
+/// Returns the skyline of an outside that varies with the bearing; `None` if there is none.
 pub(crate) fn shape(outside: &Outside) -> Option<&Skyline> {
     outside.surroundings()?.skyline.as_ref()
 }
@@ -58,12 +58,12 @@ fn with_luminance(outside: &Outside, luminance: f64) -> Option<Arc<Surroundings>
     Some(Arc::new(Surroundings { skyline: Some(skyline), ..all.clone() }))
 }
 
-/// Returns the luminance of the skyline, of either kind. \[cd/m²\]
+/// Returns the luminance of the skyline of an outside, uniform or not. \[cd/m²\]
 pub(crate) fn luminance(outside: &Outside) -> f64 {
     shape(outside).map_or(outside.skyline_luminance(), |skyline| skyline.luminance)
 }
 
-/// Whether two outsides hide the same part of the sky.
+/// Whether the skylines of two outsides hide the same part of the sky.
 pub(crate) fn same(one: &Outside, other: &Outside) -> bool {
     one.skyline_altitude() == other.skyline_altitude()
         && match (shape(one), shape(other)) {

@@ -1,4 +1,4 @@
-//! Glare at an observer: light of the apertures at the eye, and the daylight glare probability (DGP).
+//! Glare at an observer: illuminance at the eye, luminances of the apertures, and the daylight glare probability (DGP).
 
 use super::Session;
 use super::seen::inside;
@@ -14,43 +14,45 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use glam::DVec3;
 
-/// Caveat to state with every glare probability (report, section 5.1).
+/// Caveat to be stated with every glare probability (report, section 5.1).
 pub const CAVEAT: &str = "the contrast of single slats is finer than data of a whole system can show: bright edges of slats \
                           near the eye are in it as their mean alone";
 
-/// Glare at one observer of a scene.
+/// Glare at one observer of a scene at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EyeGlare {
     /// Position and view direction of the observer.
     pub eye: Sensor,
-    /// Illuminance at the eye, interreflection and all errors included. \[lx\]
+    /// Vertical illuminance at the eye, direct and interreflected, with all its errors. \[lx\]
     pub vertical: Estimate,
-    /// DGP with its error and the glare sources.
+    /// Daylight glare probability (DGP) with its error, and the glare sources.
     pub glare: Glare,
-    /// Simplified DGP (DGPs); only while neither the sun, direct or redirected, nor a lobe above
-    /// [`PEAK`](crate::compute::glare::PEAK) meets the eye.
+    /// Simplified DGP (DGPs) from the vertical illuminance alone; `None` if the eye sees the sun, directly or
+    /// redirected, or a lobe above [`PEAK`](crate::compute::glare::PEAK).
     pub dgps: Option<f64>,
-    /// Images of the sun's disc that the eye sees.
+    /// Images of the solar disc that the eye sees, directly or redirected.
     pub discs: Vec<Disc>,
-    /// Whether the value lies in the range where the formula was tested with people.
+    /// Whether the DGP lies in the range for which the formula was validated with people.
     pub proven: bool,
 }
 
-/// Light of all apertures for observers.
+/// Light that all apertures emit, for computing what observers see.
 pub(crate) struct ApertureLight {
     emissions: Vec<Emission>,
-    /// Sunlit pieces of each aperture, and pieces for points of the sun's rim; empty without boxes and skyline by
-    /// bearing.
+    /// Sunlit pieces of each aperture, as a whole and for points on the rim of the solar disc; empty without boxes and
+    /// skyline that varies with the bearing.
     lit: Vec<Lit>,
 }
 
-/// Sunlit pieces of an aperture, and pieces for each of several points of the sun's rim.
+/// Sunlit pieces of an aperture, and below the sunlit pieces for each of several points on the rim of the solar disc;
+/// in the room frame. \[m\]
 type Lit = (Vec<Vec<DVec3>>, Vec<Vec<Vec<DVec3>>>);
 
 impl Session {
-    /// Computes the glare at an observer, in the room frame; the sensor's normal is the line of sight. Light of the
-    /// room's surfaces counts only by its illuminance at the eye: sun patches on them do not count as sources. Behind
-    /// boxes scattered light is the mean over the aperture; regular transmission is as the eye sees it.
+    /// Computes the glare at an observer. `eye`: position of the eye in the room frame; its normal is the line of
+    /// sight. Light from the room's surfaces contributes only to the illuminance at the eye: patches of sun on them do
+    /// not count as glare sources. Behind boxes the luminance by scattered light is the mean over the aperture; regular
+    /// transmission is evaluated as the eye sees it.
     ///
     /// # Errors
     /// Returns the errors of [`Self::room`], or an error if cancelled.
@@ -66,13 +68,13 @@ impl Session {
         ))
     }
 
-    /// Computes the light of all apertures for observers.
+    /// Computes the light that all apertures emit, for observers.
     pub(crate) fn aperture_light(&self, scene: &Scene, progress: &dyn Progress) -> Result<ApertureLight, StudyError> {
         Ok(ApertureLight::of(scene, self.lights(scene, progress)?.emissions))
     }
 
-    /// Computes the light of all apertures for observers by the sun alone, with a dark outside; past boxes scattered
-    /// light is the mean over the aperture.
+    /// Computes the light that all apertures emit under the sun alone, for observers; past boxes, scattered light is
+    /// the mean over the aperture.
     pub(crate) fn sunshine(&self, scene: &Scene) -> ApertureLight {
         let emission = |index: usize| {
             let facing = scene.facing(index);
@@ -92,12 +94,13 @@ impl Session {
     }
 }
 
-/// Returns the apertures of a scene in an observer's field of view.
+/// Returns the apertures of a scene as an observer sees them, divided into patches of the field of view.
 pub(crate) fn eye_field(scene: &Scene, eye: &Sensor) -> Field {
     Field::new(&inside(scene, eye), scene.apertures.iter().map(|one| &one.aperture))
 }
 
-/// Returns the beams through an aperture as an eye sees them. `seen`: illuminance at the eye by one beam. \[lx\]
+/// Returns the beams through an aperture that an eye sees, each with the share of it that reaches the eye. `seen`:
+/// illuminance at the eye by one beam. \[lx\]
 fn rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], seen: impl Fn(&BeamLight) -> f64) -> Vec<Ray> {
     let ray = |beam: &BeamLight| {
         let to = aperture.surface.room_from_facade(beam.to.vector());
@@ -108,7 +111,7 @@ fn rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], seen: impl Fn(&B
     beams.iter().map(ray).filter(|ray| ray.share > 0.0).collect()
 }
 
-/// Returns the beams through an aperture without obstructions as an eye sees them.
+/// Returns the beams that an eye sees through an aperture without obstructions in front of it.
 fn open_rays(eye: &Sensor, aperture: &Aperture, beams: &[BeamLight], facing: &Facing<'_>) -> Vec<Ray> {
     rays(eye, aperture, beams, |beam| beams_through(eye, aperture, &[*beam], facing).beam)
 }
@@ -127,7 +130,8 @@ impl ApertureLight {
         Self { emissions, lit }
     }
 
-    /// Computes the glare at one observer that sees the apertures as `field`.
+    /// Computes the glare at one observer. `field`: apertures in the field of view; `vertical`: illuminance at the eye
+    /// \[lx\]; `threshold`: luminance from which patches are glare sources.
     pub fn glare(
         &self,
         scene: &Scene,
@@ -140,7 +144,8 @@ impl ApertureLight {
         evaluated(field, eye, &luminance, discs, vertical, threshold)
     }
 
-    /// Returns the luminances of the patches of the field of view \[cd/m²\], and the discs of the sun.
+    /// Returns the luminances of the patches in an observer's field of view \[cd/m²\], and the images of the solar
+    /// disc.
     pub fn seen(&self, scene: &Scene, field: &Field, eye: &Sensor) -> (Vec<f64>, Vec<Disc>) {
         let mut luminance = vec![0.0; field.patches.len()];
         let mut all = Vec::new();
@@ -164,7 +169,8 @@ impl ApertureLight {
     }
 }
 
-/// Computes the DGP from the luminances and discs that an eye sees.
+/// Computes the DGP of an observer from the luminances of the patches in the field of view \[cd/m²\] and the images of
+/// the solar disc.
 pub(crate) fn evaluated(
     field: &Field,
     eye: &Sensor,

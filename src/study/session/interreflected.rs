@@ -1,4 +1,4 @@
-//! Interreflected light: what reaches the sensors after at least one reflection in the room.
+//! Interreflected light: light that reaches the sensors after at least one reflection in the room.
 
 use super::lights::Lights;
 use super::seen::{Gathered, gathered, in_blocks, inside, keeps};
@@ -20,32 +20,33 @@ use crate::study::scene_file::ORDINARY_TARGET;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Numbers of fine patches, tried in this order until the stated error is small enough.
+/// Numbers of patches of the fine mesh, tried in this order until the stated error is small enough.
 pub(crate) const PATCHES: [usize; 4] = [640, 1500, 3200, 6400];
 
-/// Factor of the differences between the two densities, wall by wall (their sum may cancel), that gives the error of
-/// the extrapolated result. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the sensors of 81 rooms,
-/// 24 of them at random, are covered against meshes of ten times as many patches.
+/// Factor from the differences between the coarse and the fine mesh, taken wall by wall because their sum may cancel,
+/// to the error of the extrapolated illuminance. Chosen together with [`REST`] and [`NEAR`] so that about 99 % of the
+/// sensors of 81 rooms, 24 of them random, are within the error, compared with meshes of ten times as many patches.
 const DIFFERENCE: f64 = 0.6;
 
-/// Product of the number of fine patches and the relative error that both densities share: sampling of the first
-/// light.
+/// Product of the number of fine patches and the relative error that both meshes share, by sampling the direct light on
+/// the patches.
 pub(crate) const REST: f64 = 3.0;
 
-/// Share of the light by the slopes of near patches that is taken as its error at a sensor.
+/// Share of the illuminance by slopes of the exitance over near patches that is taken as its error at a sensor.
 const NEAR: f64 = 0.8;
 
-/// Value of [`DIFFERENCE`] where the light by the slopes is not known separately.
+/// Value of [`DIFFERENCE`] where the illuminance by slopes is not known separately.
 pub(crate) const DIFFERENCE_ALONE: f64 = 1.6;
 
-/// Relative error of the light that an aperture reflects to a sensor, where the light on the aperture is taken as
-/// uniform.
+/// Relative error of the illuminance by light that an aperture reflects to a sensor, if the light on the aperture is
+/// taken as uniform.
 pub(crate) const UNEVEN: f64 = 0.1;
 
 impl Session {
-    /// Computes the interreflected light at every sensor, and the largest gap of flux before it was closed. Refines
-    /// until the stated error of the total is 0.6 of the error target (the error of single sensors exceeds the stated
-    /// one) at every sensor that matters, or until the finest mesh is reached.
+    /// Computes the interreflected illuminance at every sensor, and the largest relative gap of flux before it was
+    /// closed. `lights`: light of all apertures; `direct`: direct illuminances. Refines the mesh until the stated error
+    /// of the total illuminance is 0.6 of the error target at every sensor that is not dark (errors of single sensors
+    /// exceed the stated ones), or until the finest mesh is reached.
     pub(super) fn interreflected(
         &self,
         scene: &Scene,
@@ -74,12 +75,13 @@ impl Session {
         Ok(result)
     }
 
-    /// Whether the session holds the factored room for the coarsest mesh.
+    /// Whether the solved room with the coarsest mesh is stored.
     pub(super) fn holds_room(&self, scene: &Scene) -> bool {
         self.rooms.holds(&room_key(scene, PATCHES[0]))
     }
 
-    /// Returns the room meshed with about `count` fine patches, and factored; computed or kept.
+    /// Returns the room with about `count` fine patches, with its interreflection solved (factored); computed or
+    /// stored.
     pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
         self.rooms.get(room_key(scene, count), || {
             let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
@@ -88,8 +90,8 @@ impl Session {
         })
     }
 
-    /// Returns what every sensor receives from the patches: computed once and kept, or, for more sensors than can be
-    /// kept, computed again for each.
+    /// Returns the weights with which every sensor sees the patches: stored, or, for more sensors than can be stored,
+    /// to be computed again for each.
     fn gathered<'a>(&self, scene: &Scene, count: usize, radiosity: &'a Radiosity) -> Result<Gathered<'a>, StudyError> {
         let patches = radiosity.nested.fine.patches.len() + radiosity.nested.coarse.patches.len();
         // Weights and slopes.
@@ -99,7 +101,8 @@ impl Session {
         Ok(Gathered::Recomputed([&radiosity.nested.fine, &radiosity.nested.coarse]))
     }
 
-    /// Returns what every sensor receives from the patches, fine and coarse; computed or kept.
+    /// Returns the weights with which every sensor sees the patches of the fine and the coarse mesh; computed or
+    /// stored.
     pub(super) fn gathering(
         &self,
         scene: &Scene,
@@ -117,8 +120,8 @@ impl Session {
         })
     }
 
-    /// Returns what the patches receive from an aperture, or from a part of one, by the cells of a basis; `key` is the
-    /// mesh's.
+    /// Returns the weights with which the patches of the room receive light from an aperture, or from a part of one, by
+    /// the cells of a basis. `key`: key of the mesh in the caches.
     pub(super) fn patch_weights(
         &self,
         key: &Key,
@@ -133,7 +136,7 @@ impl Session {
         self.patches.find(key, || PatchWeights::new(mesh, aperture, Arc::clone(basis)))
     }
 
-    /// Computes the direct light of the apertures on about `count` fine patches.
+    /// Computes the direct light of all apertures on the patches of the room, about `count` in the fine mesh.
     pub(super) fn first_light(
         &self,
         scene: &Scene,
@@ -159,7 +162,8 @@ impl Session {
         Ok(first)
     }
 
-    /// Computes the interreflected light at every sensor with about `count` fine patches, and the gap of flux.
+    /// Computes the interreflected illuminance at every sensor with about `count` fine patches, and the relative gap of
+    /// flux.
     fn reflected(
         &self,
         scene: &Scene,
@@ -232,8 +236,8 @@ impl Session {
     }
 }
 
-/// Returns the apertures that reflect by direction, each with its number. `weights`: what the patches receive from an
-/// aperture by the cells of a basis.
+/// Returns the apertures that reflect by direction, each with its index. `weights`: returns the weights with which the
+/// patches receive light from an aperture by the cells of a basis.
 pub(super) fn mirrors<'a>(
     scene: &'a Scene,
     weights: impl Fn(usize, &Arc<RingBasis>) -> Arc<PatchWeights>,
@@ -245,7 +249,7 @@ pub(super) fn mirrors<'a>(
     scene.apertures.iter().enumerate().filter_map(reflecting).collect()
 }
 
-/// Returns the key of a room's patches, which do not depend on the reflectances.
+/// Returns the key of the room's patches in the caches, which does not depend on the reflectances.
 pub(super) fn mesh_key(scene: &Scene, count: usize) -> Key {
     let mut key = vec![count as u64];
     key.extend(bits(scene.room.size.to_array()));
@@ -253,7 +257,7 @@ pub(super) fn mesh_key(scene: &Scene, count: usize) -> Key {
     key
 }
 
-/// Returns the key of a meshed room, reflectances included.
+/// Returns the key of the room with its patches and reflectances in the caches.
 pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
     let mut key = mesh_key(scene, count);
     key.extend(bits([scene.room.floor, scene.room.walls, scene.room.ceiling]));
@@ -261,7 +265,7 @@ pub(super) fn room_key(scene: &Scene, count: usize) -> Key {
     key
 }
 
-/// Returns the ranges of the patches of every wall.
+/// Returns the range of patch indices for every wall.
 pub(super) fn spans(mesh: &Mesh) -> Vec<std::ops::Range<usize>> {
     mesh.walls.iter().map(Wall::patches).collect()
 }

@@ -1,4 +1,4 @@
-//! Light that all apertures of a scene send into the room.
+//! Light that the apertures of a scene send into the room.
 
 use super::Session;
 use super::behind::Split;
@@ -7,16 +7,16 @@ use crate::compute::lid::Emission;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 
-/// Light of all apertures of a scene.
+/// Light that all apertures of a scene send into the room.
 pub(super) struct Lights {
     /// Light of every aperture as a whole.
     pub emissions: Vec<Emission>,
-    /// Light of every aperture part by part; empty without obstructions.
+    /// Light of every aperture in parts that see different outsides; empty without obstructions.
     pub splits: Vec<Split>,
 }
 
 impl Session {
-    /// Computes the light of all apertures.
+    /// Computes the light that all apertures send into the room.
     pub(super) fn lights(&self, scene: &Scene, progress: &dyn Progress) -> Result<Lights, StudyError> {
         let splits = self.splits(scene, progress)?;
         let emissions = if splits.is_empty() {
@@ -29,7 +29,7 @@ impl Session {
 }
 
 impl Lights {
-    /// Returns the flux that enters through one aperture. \[lm\]
+    /// Returns the luminous flux that enters the room through one aperture. \[lm\]
     pub fn flux_through(&self, scene: &Scene, index: usize) -> Estimate {
         let exitance = match self.splits.get(index) {
             Some(split) => split.exitance,
@@ -38,7 +38,7 @@ impl Lights {
         exitance * scene.apertures[index].aperture.area()
     }
 
-    /// Returns the flux that enters through all apertures. \[lm\]
+    /// Returns the luminous flux that enters the room through all apertures. \[lm\]
     pub fn flux(&self, scene: &Scene) -> Estimate {
         (0..self.emissions.len()).map(|index| self.flux_through(scene, index)).sum()
     }

@@ -1,25 +1,26 @@
-//! Notes on how the obstructions in front of an aperture were treated: what was split, and why.
+//! Notes on how apertures with obstructions in front of them were computed: into how many parts they were divided, and
+//! why.
 
 use crate::texts::{fixed, words as texts};
 
-/// Treatment of an aperture with obstructions.
+/// Method by which an aperture with obstructions in front of it was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideSeen {
-    /// Number of the aperture, from 0.
+    /// Index of the aperture, from 0.
     pub aperture: usize,
-    /// Whether every sensor sees the outside past the obstructions through the aperture's regular transmission.
+    /// Whether the system has regular transmission, through which every sensor sees the outside past the obstructions.
     pub through: bool,
-    /// Number of parts into which it was split for scattered light; 0 where its points see the outside alike; `None`
-    /// where it scatters none.
+    /// Number of parts into which the aperture was divided for scattered light; 0 if all its points see the same
+    /// outside; `None` if it does not scatter.
     pub parts: Option<usize>,
-    /// Change of that light over a part, or over the whole aperture. \[relative\]
+    /// Largest relative change of the scattered flux per area over a part, or over the whole aperture.
     pub change: f64,
-    /// Sunlit share of the aperture; `None` without a sun in front of it.
+    /// Sunlit share of the aperture; `None` if the sun is not in front of it.
     pub sunlit: Option<f64>,
 }
 
 impl OutsideSeen {
-    /// Returns a sentence for each note.
+    /// Returns the notes for the user, one sentence each.
     pub fn sentences(&self) -> Vec<String> {
         let number = self.aperture + 1;
         let mut notes = Vec::new();

@@ -1,8 +1,8 @@
-//! Responses of the sensors to the first illuminance of every patch, from the room's balance solved backwards
-//! (adjoint).
+//! Responses of the sensors to the first illuminance of every patch of the room, by solving the interreflection
+//! backwards (adjoint).
 //!
-//! One set serves every sky, sun and system of a room; light that apertures reflect by direction is added by cells,
-//! see [`super::room_side_reflection`].
+//! One set of responses serves every sky, sun and system in a room; light that apertures reflect by direction is added
+//! by cells, see [`super::room_side_reflection`].
 
 use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
@@ -28,37 +28,37 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Responses of all sensors of a room.
+/// Responses of all sensors in a room to light on its patches, for computing interreflected light.
 pub(crate) struct Responses {
-    /// Factored balance of the room.
+    /// Room with its interreflection solved (factored).
     pub radiosity: Arc<Radiosity>,
     room: ThroughRoom,
-    /// Light of apertures that reflect by direction.
+    /// Reflection of apertures that reflect by direction; `None` if none does.
     mirrors: Option<RoomSideReflection>,
     /// Requested number of fine patches.
     count: usize,
 }
 
-/// Interreflected light at a sensor, or weights that make it.
+/// Interreflected illuminance at a sensor, or its value per unit of a source.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Reflected {
-    /// All interreflected light.
+    /// Interreflected illuminance, or its value per unit of a source.
     pub value: f64,
-    /// Difference of the two densities.
+    /// Difference between the fine and the coarse mesh, in the same unit.
     pub difference: f64,
-    /// Part that comes directly from apertures that reflect by direction.
+    /// Contribution that comes directly from apertures that reflect by direction, in the same unit.
     pub room_side_reflection: f64,
 }
 
 impl Reflected {
-    /// Returns the estimated absolute error.
+    /// Returns the estimated absolute error of the value, in the same unit.
     pub fn uncertainty(&self) -> f64 {
         DIFFERENCE_ALONE * self.difference + UNEVEN * self.room_side_reflection
     }
 }
 
 impl Session {
-    /// Computes the responses for a room of about `count` fine patches.
+    /// Computes the responses of the sensors for a room with about `count` fine patches.
     pub(crate) fn responses(
         &self,
         scene: &Scene,
@@ -101,7 +101,7 @@ impl Session {
         Ok(Responses { radiosity, room, mirrors, count })
     }
 
-    /// Returns the responses of the sensors of [`Self::responses`] to beams; computed or kept.
+    /// Returns the responses to beams of the sensors of [`Self::responses`]; computed or stored.
     pub(crate) fn unit_beams(&self, scene: &Scene, room: &Responses) -> Result<Arc<UnitBeams>, StudyError> {
         let key = [&room.room.key[..], &room.room.sensor_key].concat();
         self.unit_beams.get(key, || {
@@ -111,7 +111,8 @@ impl Session {
     }
 }
 
-/// Computes the responses of all sensors from what they receive from the patches of both densities.
+/// Computes the responses of all sensors. `gather`: weights with which they see the patches of the fine and the coarse
+/// mesh.
 fn weights_of(
     radiosity: &Radiosity,
     gather: &[[Reconstruction; 2]],
@@ -146,13 +147,14 @@ fn weights_of(
 }
 
 impl Responses {
-    /// Returns what the patches receive from an aperture by the cells of a basis.
+    /// Returns the weights with which the patches of the room receive light from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
         self.room.weights(session, index, basis)
     }
 
-    /// Returns the interreflected light per luminance of an aperture's cells, sensor by sensor and cell by cell; with
-    /// `nodes` also node by node, for light that is 1 at one of them and 0 at the others.
+    /// Returns the interreflected illuminance per luminance of an aperture's cells, sensor by sensor and cell by cell.
+    /// With `nodes` it is computed for each node of the aperture, node by node, for light that is 1 at that node and 0
+    /// at the others.
     pub fn of_cells(
         &self,
         session: &Session,
@@ -186,7 +188,8 @@ impl Responses {
         by_node.iter().zip(nodes.parts()).flat_map(|(room, part)| all(room, part)).collect()
     }
 
-    /// Returns the interreflected light at every sensor for first illuminances of the patches.
+    /// Returns the interreflected illuminance at every sensor. `first`: illuminances of the patches before
+    /// interreflection. \[lx\]
     pub fn of(&self, first: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(first));
         let one = |(s, sensor): (usize, &Response)| {
@@ -203,8 +206,8 @@ impl Responses {
         self.room.sensors.iter().enumerate().map(one).collect()
     }
 
-    /// Returns the light of beams at every sensor after two reflections or one by an aperture. `direct`: illuminance
-    /// of the patches by the beams. \[lx\]
+    /// Returns the illuminance at every sensor by beams, after two reflections in the room, or one by an aperture.
+    /// `sums`: reflected light of the beams; `direct`: illuminances of the patches by the beams. \[lx\]
     pub fn of_beams(&self, sums: &ReflectedBeamLight, direct: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
         let one = |s: usize| {

@@ -1,4 +1,4 @@
-//! Results of a session: a room, a sensor, an aperture's light.
+//! Results of a session: illuminances in a room and at a sensor, light of an aperture.
 
 use super::outside_seen::OutsideSeen;
 use crate::compute::estimate::{Estimate, largest_relative_error};
@@ -16,71 +16,73 @@ pub struct SensorResult {
     pub direct: Estimate,
     /// Interreflected component: after at least one reflection in the room. \[lx\]
     pub interreflected: Estimate,
-    /// Part of `direct` that is the sun's light as beams: undeviated, deflected or mirrored. \[lx\]
+    /// Share of the direct component that is sunlight in beams: undeviated, deflected or mirrored; part of `direct`.
+    /// \[lx\]
     pub beam: f64,
-    /// Data part of the uncertainty of the total: from details that the data do not distinguish. The numerical part is
-    /// in the errors of `direct` and `interreflected`. \[lx\]
+    /// Uncertainty of the total illuminance by details that the BSDF data do not resolve. The numerical errors are
+    /// those of `direct` and `interreflected`. \[lx\]
     pub data_error: f64,
 }
 
 impl SensorResult {
-    /// Returns direct and interreflected light together, with both parts of the uncertainty. \[lx\]
+    /// Returns the total illuminance, direct and interreflected, with both kinds of uncertainty. \[lx\]
     pub fn total(&self) -> Estimate {
         self.direct + self.interreflected + Estimate::new(0.0, self.data_error)
     }
 
-    /// Returns the numerical part of the uncertainty, with the data taken as exact. \[lx\]
+    /// Returns the numerical error of the total illuminance, with the BSDF data taken as exact. \[lx\]
     pub fn numerical_error(&self) -> f64 {
         (self.direct + self.interreflected).error
     }
 }
 
-/// Illuminances of a scene at all sensors.
+/// Illuminances of a scene at all its sensors.
 #[derive(Debug, Clone)]
 pub struct RoomResult {
     /// Results of the sensors, in the order of the scene.
     pub sensors: Vec<SensorResult>,
-    /// Flux that enters through all apertures. \[lm\]
+    /// Luminous flux that enters the room through all apertures. \[lm\]
     pub flux: Estimate,
-    /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces, before it
-    /// was closed; 0 without interreflection.
+    /// Largest relative gap between the flux that leaves an aperture and the flux found on the surfaces of the room,
+    /// before it was closed; 0 without interreflection.
     pub flux_gap: f64,
-    /// Source of the sun's beams with a note on it, aperture by aperture.
+    /// Method by which sunlight was computed as beams, with a note on it, for each aperture.
     pub beams: Vec<(BeamSource, String)>,
-    /// Treatment of the apertures with obstructions; empty without any.
+    /// Notes on how apertures with obstructions were computed; empty without any.
     pub outside: Vec<OutsideSeen>,
     /// Plan of the computation: stages that ran, stages that were skipped, and their times.
     pub plan: Plan,
 }
 
 impl RoomResult {
-    /// Returns the data part of the uncertainty as a share of all light at the sensors.
+    /// Returns the uncertainty by the BSDF data as a share of all illuminances: its sum over the sensors, relative to
+    /// the sum of their illuminances.
     pub fn data_share(&self) -> f64 {
         let all: f64 = self.sensors.iter().map(|s| s.total().value).sum();
         let open: f64 = self.sensors.iter().map(|s| s.data_error).sum();
         if all > 0.0 { open / all } else { 0.0 }
     }
 
-    /// Returns the largest relative error stated among the sensors that are not dark (1 % of the mean); 0 without
-    /// light.
+    /// Returns the largest relative error of the total illuminance over all sensors that are not dark (above 1 % of the
+    /// mean); 0 without light.
     pub fn reached(&self) -> f64 {
         largest_relative_error(self.sensors.iter().map(SensorResult::total))
     }
 }
 
-/// Light of one aperture into the room.
+/// Light of one aperture into the room: flux and luminous intensity distribution.
 #[derive(Debug, Clone)]
 pub struct LidResult {
     /// Luminous intensity distribution of the aperture.
     pub lid: Lid,
-    /// Luminous flux into the room. \[lm\]
+    /// Luminous flux of the aperture into the room. \[lm\]
     pub flux: Estimate,
-    /// Illuminance of the outside face: diffuse, then by the sun. \[lx\]
+    /// Illuminance of the aperture from outside: diffuse, then by the sun. \[lx\]
     pub incident: (Estimate, f64),
 }
 
 impl LidResult {
-    /// Returns the result if its flux is a finite number.
+    /// Returns this result if its flux is a finite number.
     ///
     /// # Errors
     /// Returns an error if the flux is not a finite number.
@@ -90,7 +92,7 @@ impl LidResult {
     }
 }
 
-/// Checks that all results are finite numbers.
+/// Checks that all illuminances and the flux are finite numbers.
 ///
 /// # Errors
 /// Returns an error that names the apertures or the first sensor with a value that is not a finite number.

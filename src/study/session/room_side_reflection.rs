@@ -1,7 +1,7 @@
-//! Light that apertures reflecting by direction add at the sensors.
+//! Light that reaches the sensors after reflection by the room side of apertures that reflect by direction.
 //!
-//! V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the system's own reflection R belongs to the room and is kept, so that
-//! another system or state costs one small matrix. Apertures that reflect without direction are a single cell.
+//! V = V₀ + V₀b (1 − R G)⁻¹ R Gₜ: all but the system's reflection R depends on the room alone and is stored, so that
+//! another system or state costs one small matrix. Apertures that reflect diffusely are a single cell.
 
 use super::through_room::ThroughRoom;
 use super::weights::ByCells;
@@ -18,42 +18,45 @@ use faer::Mat;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Room-side reflection of all apertures of a scene.
+/// Reflection by the room sides of all apertures of a scene.
 pub(crate) struct RoomSideReflection {
     sides: Vec<Side>,
-    /// Luminances of all reflecting cells by incident illuminance of each cell, after all reflections: (1 − R G)⁻¹ R.
+    /// Luminances of all reflecting cells per incident illuminance of each cell, after all interreflections: (1 − R
+    /// G)⁻¹ R.
     settled: Mat<f32>,
-    /// Weights of all reflecting cells, with the rows of every sensor, see [`Rows`]. Single precision is 10⁻⁷ of them.
+    /// Illuminances at the sensors per luminance of each reflecting cell, in the rows of [`Rows`]. Single precision is
+    /// 10⁻⁷ of them.
     seen: Mat<f32>,
     rows: Rows,
 }
 
-/// Room side of one reflecting aperture.
+/// Room side of one aperture that reflects.
 struct Side {
     index: usize,
     basis: Arc<RingBasis>,
     room: Arc<RoomSide>,
 }
 
-/// Positions of the rows of a sensor: value, direct part, then the walls.
+/// Positions of a sensor's rows in the matrix: all light, its part directly from the aperture, then one row for each
+/// wall.
 struct Rows {
     first: Vec<usize>,
     walls: Vec<usize>,
 }
 
-/// Light that is added at a sensor, by cell or for one light.
+/// Light that reaches a sensor after reflection by apertures: by emergent cell, or for one light.
 pub(super) struct Added<T> {
-    /// All light that the apertures reflect.
+    /// Illuminance, or illuminance per luminance, by all light that apertures reflect.
     pub value: T,
-    /// Part of `value` that comes directly from the apertures.
+    /// Contribution to `value` that comes directly from the apertures.
     pub straight: T,
-    /// Differences of the two densities, wall by wall.
+    /// Differences between the fine and the coarse mesh, wall by wall.
     pub walls: Vec<T>,
 }
 
 impl RoomSideReflection {
-    /// Creates the room-side reflection of a scene's apertures; `None` where none reflects. `lambertian`: reflectance
-    /// of every aperture for reflection without direction.
+    /// Creates the reflection by the room sides of a scene's apertures; `None` if none reflects. `lambertian`:
+    /// reflectance of every aperture that reflects diffusely, 0 for others.
     pub fn new(
         session: &Session,
         scene: &Scene,
@@ -118,7 +121,8 @@ impl RoomSideReflection {
         Ok(Some(Self { sides, settled, seen, rows }))
     }
 
-    /// Returns the added light per luminance of each of an aperture's cells, sensor by sensor.
+    /// Returns the illuminance after reflection by apertures per luminance of each cell of an aperture, sensor by
+    /// sensor.
     pub fn of_cells(
         &self,
         session: &Session,
@@ -132,7 +136,8 @@ impl RoomSideReflection {
         self.added(|row| (0..basis.len()).map(|cell| f64::from(all[(row, cell)])).collect())
     }
 
-    /// Returns the added light for first illuminances of the patches, `first`, sensor by sensor.
+    /// Returns the illuminance after reflection by apertures, sensor by sensor. `first`: illuminances of the patches of
+    /// the room before interreflection. \[lx\]
     pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
         let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
         let all = self.reflected(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
@@ -170,8 +175,8 @@ impl Session {
         self.sides.find(cells_key(&responses.key, index, basis), compute)
     }
 
-    /// Returns the illuminance of a reflecting aperture, by cell, per light from the cells of another aperture or the
-    /// same.
+    /// Returns the illuminance of a reflecting aperture by incident cell, per luminance of the cells of another
+    /// aperture or the same; computed or stored. `to`: reflecting aperture; `from`: index of the emitting one.
     fn falling_in(
         &self,
         responses: &ThroughRoom,

@@ -1,6 +1,5 @@
-//! Views of apertures and surfaces from the sensors: kept between computations for as many sensors as a study uses
-//! again and again, computed again sensor by sensor for more, so that memory does not grow with what each of them
-//! sees.
+//! Responses of the sensors to apertures and surfaces: stored for as many sensors as a study uses repeatedly; for more
+//! they are computed again sensor by sensor, so that memory does not grow with their number.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
@@ -24,12 +23,12 @@ pub(crate) fn check(progress: &dyn Progress) -> Result<(), Cancelled> {
 /// Number of sensors that are computed between two reports of progress.
 const BLOCK: usize = 4096;
 
-/// Whether a table of `numbers` numbers per sensor is small enough to be kept.
+/// Whether a table of `numbers` values per sensor is small enough to be stored.
 pub(crate) fn keeps(scene: &Scene, numbers: usize) -> bool {
     scene.sensors.len().saturating_mul(numbers).saturating_mul(size_of::<f64>()) <= limits::KEPT_BYTES
 }
 
-/// Checks that tables of `each` bytes per sensor, which a year needs as a whole, fit into memory.
+/// Checks that tables of `each` bytes per sensor, which an annual simulation needs as a whole, fit into memory.
 ///
 /// # Errors
 /// Returns an error if the scene has more sensors than fit.
@@ -42,14 +41,15 @@ pub(crate) fn within_budget(scene: &Scene, each: usize) -> Result<(), StudyError
     Ok(())
 }
 
-/// Returns a sensor at the position where its light is computed: one in an aperture is moved just inside of it.
+/// Returns a sensor at the position for which its illuminance is computed: one that lies in an aperture is shifted just
+/// inside the room.
 pub(crate) fn inside(scene: &Scene, sensor: &Sensor) -> Sensor {
     let enter = |position, one: &SceneAperture| one.aperture.entered(position, sensor.normal);
     Sensor { position: scene.apertures.iter().fold(sensor.position, enter), ..*sensor }
 }
 
-/// Computes a value for every sensor, by all threads, in the order of the scene; `work` is given the sensor's index,
-/// and the sensor as returned by [`inside`].
+/// Computes a value for every sensor in parallel, in the order of the scene. `work` gets the index of the sensor, and
+/// the sensor as returned by [`inside`].
 ///
 /// # Errors
 /// Returns the first error of `work`, or an error if cancelled.
@@ -75,14 +75,14 @@ pub(super) fn in_blocks<T: Send>(
     Ok(all)
 }
 
-/// Light that every sensor receives from one aperture per luminance, by cells.
+/// Illuminance of every sensor per luminance of one aperture, by emergent cells: stored or to be computed. \[sr\]
 pub(super) enum Seen<'a> {
     Kept(Arc<Vec<Reception>>),
     Recomputed(&'a Aperture, Option<&'a RingBasis>),
 }
 
 impl Seen<'_> {
-    /// Returns the values of a sensor; `s`: its index in the scene.
+    /// Returns the response of one sensor. `s`: index of the sensor in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, Reception> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -91,15 +91,17 @@ impl Seen<'_> {
     }
 }
 
-/// Light that every sensor receives from one aperture per luminance, by bands of the profile angle.
+/// Illuminance of every sensor per luminance of one aperture, by bands of the profile angle: stored or to be computed.
+/// \[sr\]
 pub(super) enum SeenBands<'a> {
     Kept(Arc<Vec<BandWeights>>),
-    /// Aperture, whether the profile angle is in the horizontal plane, and number of bands.
+    /// Aperture for which the response is computed sensor by sensor; then whether the profile angle is in the
+    /// horizontal plane (vertical structures), and number of bands.
     Recomputed(&'a Aperture, bool, usize),
 }
 
 impl SeenBands<'_> {
-    /// Returns the values of a sensor; `s`: its index in the scene.
+    /// Returns the response of one sensor. `s`: index of the sensor in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, BandWeights> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -108,20 +110,22 @@ impl SeenBands<'_> {
     }
 }
 
-/// Computes the weights of bands of the profile angle at one sensor.
+/// Computes the illuminance at one sensor per luminance of an aperture in bands of the profile angle \[sr\]. `upright`:
+/// whether the profile angle is in the horizontal plane (vertical structures); `count`: number of bands.
 pub(crate) fn bands_of(sensor: &Sensor, aperture: &Aperture, upright: bool, count: usize) -> BandWeights {
     let view = aperture.view(sensor.position, sensor.normal);
     view.map_or_else(BandWeights::default, |view| BandWeights::new(&view, upright, count))
 }
 
-/// Light that every sensor receives from the patches, fine and coarse.
+/// Weights with which every sensor sees the patches of the room, in the fine and the coarse mesh: stored or to be
+/// computed.
 pub(super) enum Gathered<'a> {
     Kept(Arc<Vec<[Reconstruction; 2]>>),
     Recomputed([&'a Mesh; 2]),
 }
 
 impl Gathered<'_> {
-    /// Returns the values of a sensor; `s`: its index in the scene.
+    /// Returns the weights of one sensor. `s`: index of the sensor in the scene.
     pub fn of(&self, s: usize, sensor: &Sensor) -> Cow<'_, [Reconstruction; 2]> {
         match self {
             Self::Kept(all) => Cow::Borrowed(&all[s]),
@@ -130,15 +134,15 @@ impl Gathered<'_> {
     }
 }
 
-/// Computes what one sensor receives from the patches of both meshes.
+/// Computes the weights with which one sensor sees the patches of the fine and the coarse mesh.
 pub(super) fn gathered(meshes: &[&Mesh; 2], sensor: &Sensor) -> [Reconstruction; 2] {
     meshes.map(|mesh| reconstruct(mesh, sensor.position, sensor.normal))
 }
 
-/// Whether receptions by the cells of a basis are kept for all sensors of a scene.
+/// Whether the responses of all sensors of a scene to the emergent cells of a basis are stored.
 pub(super) fn keeps_receptions(scene: &Scene, basis: Option<&RingBasis>) -> bool {
     keeps(scene, RECEPTION + basis.map_or(0, RingBasis::len))
 }
 
-/// Size of a reception without its cells. \[numbers\]
+/// Size of a sensor's response without its cells. \[numbers\]
 const RECEPTION: usize = size_of::<Reception>() / size_of::<f64>();

@@ -1,19 +1,21 @@
-//! Direct light of an aperture's cells at the sensors: the same for all systems, and zero for most cells.
+//! Direct illuminances at the sensors per luminance of an aperture's emergent cells: the same for all systems, and zero
+//! for most cells.
 
 use crate::compute::dot::add_scaled;
 
-/// Direct light at the sensors by cell, with rows only for cells that any sensor sees.
+/// Direct illuminances at the sensors per luminance of each emergent cell, with rows only for cells that any sensor
+/// sees.
 pub(crate) struct SeenCells {
     sensors: usize,
-    /// Start of the row of each cell; `None` where no sensor sees the cell.
+    /// Start of the row of each cell; `None` for cells that no sensor sees.
     first: Vec<Option<u32>>,
-    /// Illuminance per luminance of a cell, sensor by sensor. \[sr\]
+    /// Illuminance per luminance of the cell, sensor by sensor. \[sr\]
     rows: Vec<f32>,
 }
 
 impl SeenCells {
-    /// Creates the rows of `cells` cells; `weights`: for every sensor the cells that it sees, with their weights
-    /// \[sr\].
+    /// Creates the rows for a basis of `cells` cells. `weights`: for every sensor the cells that it sees, with their
+    /// weights \[sr\].
     pub fn new<I>(cells: usize, weights: impl ExactSizeIterator<Item = I> + Clone) -> Self
     where
         I: Iterator<Item = (usize, f64)>,
@@ -40,7 +42,8 @@ impl SeenCells {
         Self { sensors, first, rows }
     }
 
-    /// Adds the direct light of a cell of the given luminance at the sensors.
+    /// Adds the direct illuminances at the sensors by an emergent cell of the given luminance \[cd/m²\] to `out`.
+    /// \[lx\]
     #[inline]
     pub fn add(&self, cell: usize, luminance: f64, out: &mut [f64]) {
         if let Some(first) = self.first[cell] {

@@ -1,5 +1,5 @@
-//! Skies in front of an aperture: the hours of a year, computed once for all systems that need the same directions;
-//! and single skies that many systems are tried under.
+//! Stored light of skies in front of apertures: the hours of a year, computed once for all systems that need the same
+//! directions; and single skies for testing fixed directions.
 
 use super::far;
 use super::seen::keeps;
@@ -20,21 +20,23 @@ use std::f64::consts::TAU;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// Memory per sensor for a cell that it sees through points of an aperture. \[numbers\]
+/// Estimated memory per sensor for an emergent cell that it sees through points of an aperture. \[numbers\]
 const CELL_AT_POINTS: usize = 16;
-/// Maximum count of numbers of a year that are kept: 12,000 in each of 8,784 hours. Half of these are dark, which
-/// leaves 210 MB.
+/// Maximum number of values of a year that are stored: 12,000 in each of 8,784 hours. Half of these are dark, so that
+/// they take 210 MB.
 const MOST_NUMBERS: usize = 12_000 * 8784;
 
-/// Returns the stored hours of a year, for a list of directions with this fingerprint that gives `numbers` values per
-/// hour; `None` for more than can be kept. `year`: number of the year, and count of its hours.
+/// Returns the store for the hours of a year, for a list of directions with this fingerprint that gives `numbers`
+/// values per hour; `None` if these are more than can be stored. `year`: number that identifies the year, and number of
+/// its hours.
 fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
     let fits = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
     fits.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
 }
 
 impl Session {
-    /// Returns the patches in front of an aperture, computed or kept; `spacing` of the directions \[rad\].
+    /// Returns the patches of the outside in front of an aperture, computed or stored. `patches`: basis of the incident
+    /// hemisphere; `spacing`: maximum distance between the directions in which a sky is evaluated \[rad\].
     pub(crate) fn sky_patches(&self, scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Arc<SkyPatches> {
         // A skyline that rises and falls has too much of a shape for a key.
         if far::shape(&scene.outside).is_some() {
@@ -46,8 +48,8 @@ impl Session {
         self.sky_patches.find(key, || SkyPatches::new(scene, index, patches, spacing))
     }
 
-    /// Returns the obstructions of a scene, prepared for many skies behind the skyline of `outside`, computed or kept;
-    /// `None` without any.
+    /// Returns the obstructions of a scene, prepared for many skies, computed or stored; `None` without any. `outside`:
+    /// outside whose skyline lies behind them.
     ///
     /// # Errors
     /// Returns an error if cancelled.
@@ -66,8 +68,8 @@ impl Session {
         self.standing.get(vec![hasher.finish()], find).map(Some)
     }
 
-    /// Returns weights of a moment's luminances by patch at points of an aperture, computed by `find` or kept. `kind`:
-    /// number of lists with the same points. \[sr\]
+    /// Returns weights of outside luminances at points of an aperture, by point and incident patch, computed by `find`
+    /// or stored. \[sr\] `kind`: number that distinguishes lists with the same points.
     pub(crate) fn seen_patches(
         &self,
         (prepared, kind): (&Prepared, u64),
@@ -81,8 +83,9 @@ impl Session {
         self.seen_patches.find(key, find)
     }
 
-    /// Returns the points of an aperture's grid through which every sensor of a scene sees cells, or bands of the
-    /// profile angle (whether in the horizontal plane, and their number), computed by `find` or kept. \[sr\]
+    /// Returns the weights with which every sensor of a scene sees emergent cells through points of an aperture,
+    /// computed by `find` or stored. \[sr\] `cells`: basis, or for bands of the profile angle whether the angle is in
+    /// the horizontal plane, and their number.
     pub(crate) fn cells_at_points(
         &self,
         scene: &Scene,
@@ -101,18 +104,20 @@ impl Session {
         self.cells_at_points.find(key, find)
     }
 
-    /// Returns the stored illuminances of `patches` patches in the hours of a year; `None` for more than can be kept.
+    /// Returns the store for the illuminances of `patches` patches in the hours of a year; `None` if these are more
+    /// than can be stored.
     pub(crate) fn sky_year(&self, year: (u64, usize), fingerprint: u64, patches: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.sky_years, year, fingerprint, patches)
     }
 
-    /// Returns the stored moments of what sensors see in the hours of a year, `moments` in each; `None` for more than
-    /// can be kept.
+    /// Returns the store for the moments of what sensors see by regular transmission in the hours of a year, `moments`
+    /// in each; `None` if these are more than can be stored.
     pub(crate) fn seen_year(&self, year: (u64, usize), fingerprint: u64, moments: usize) -> Option<Arc<SkyYear>> {
         year_of(&self.seen_years, year, fingerprint, moments)
     }
 
-    /// Returns the sunlit parts of an aperture in the hours of a year, behind prepared obstructions of this number.
+    /// Returns the store for the sunlit parts of an aperture in the hours of a year. `prepared`: number of the prepared
+    /// obstructions.
     pub(crate) fn sunlit_year(
         &self,
         (number, hours): (u64, usize),
@@ -124,13 +129,14 @@ impl Session {
         self.sunlit_years.find(key, || (0..hours).map(|_| OnceLock::new()).collect())
     }
 
-    /// Returns the skies that the directions of a façade's patches are tried under, computed by `find` or kept.
+    /// Returns the skies under which the fixed directions of a façade's patches are tested, computed by `find` or
+    /// stored.
     pub(crate) fn trial_skies(&self, facade: Bearing, find: impl FnOnce() -> Vec<Outside>) -> Arc<Vec<Outside>> {
         let key = vec![facade.radians().to_bits()];
         self.trial_skies.find(key, find)
     }
 
-    /// Returns the illuminances of a sky on patches of this fingerprint, computed by `find` or kept.
+    /// Returns the illuminances of a sky through patches with this fingerprint \[lx\], computed by `find` or stored.
     pub(crate) fn exact_sky(
         &self,
         outside: &Outside,
@@ -143,7 +149,7 @@ impl Session {
     }
 }
 
-/// Returns the key of a sky: luminances that differ between all skies that are tried.
+/// Returns the key of a sky in the cache: luminances that differ between all skies that are tested.
 fn sky_key(outside: &Outside) -> Key {
     let spiral = (0..24).map(|k| {
         let z = (f64::from(k) + 0.5) / 24.0;

@@ -1,4 +1,4 @@
-//! Patches of the outside in front of an aperture, and the values that depend on nothing else: computed once for all
+//! Patches of the outside in front of an aperture, and values that depend on nothing else, computed once for all
 //! systems and states.
 
 use super::far::{self, Constants};
@@ -9,24 +9,26 @@ use crate::study::scene::Scene;
 /// Relative accuracy of the illuminances by ground and skyline, which do not depend on the sky.
 const RELATIVE: f64 = 1e-7;
 
-/// Patches of the outside with the directions and constant illuminances in them.
+/// Patches of the outside in front of an aperture, with the directions in which skies are evaluated and the constant
+/// illuminances through them.
 pub(crate) struct SkyPatches {
-    /// Patches of the incident hemisphere.
+    /// Basis of the incident hemisphere.
     pub patches: RingBasis,
-    /// Orientation of the patches in the world frame.
+    /// Orientation of the hemisphere in the world frame.
     pub frame: Frame,
-    /// Directions in the patches that reach above horizon and skyline.
+    /// Directions in which skies are evaluated, in the patches that reach above horizon and skyline.
     pub samples: SkySamples,
-    /// Fingerprint of the samples.
+    /// Hash that identifies these directions.
     pub fingerprint: u64,
-    /// Illuminance through every patch by a ground of luminance 1. \[lx per cd/m²\]
+    /// Illuminance of the aperture through every patch by a ground of luminance 1. \[lx per cd/m²\]
     pub ground: Vec<f64>,
-    /// Illuminance through every patch by a skyline of luminance 1. \[lx per cd/m²\]
+    /// Illuminance of the aperture through every patch by a skyline of luminance 1. \[lx per cd/m²\]
     pub skyline: Vec<f64>,
 }
 
 impl SkyPatches {
-    /// Creates the patches in front of an aperture of a scene; `spacing` of the directions \[rad\].
+    /// Creates the patches in front of an aperture of a scene. `patches`: basis of the incident hemisphere; `spacing`:
+    /// maximum distance between the directions \[rad\].
     pub fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {
         let frame = Frame::of_aperture(scene.orientation, scene.facing(index).surface);
         let mut samples = SkySamples::new(&patches, &frame, scene.outside.skyline_altitude(), spacing);
@@ -43,7 +45,8 @@ impl SkyPatches {
     }
 }
 
-/// Returns the illuminance through every patch. \[lx\]
+/// Returns the illuminance of an aperture through every patch, by integration with the relative accuracy `relative`.
+/// \[lx\]
 pub(crate) fn illuminances(outside: &Outside, basis: &RingBasis, frame: &Frame, relative: f64) -> Vec<f64> {
     incident_illuminances_within(outside, basis, frame, relative).into_iter().map(|e| e.value).collect()
 }

@@ -1,13 +1,13 @@
-//! Stored values of a sky in the hours of a year: illuminances of an aperture's patches \[lx\], moments of what
-//! sensors see.
+//! Stored light of the sky in the hours of a year: illuminances through the patches of an aperture \[lx\], or moments
+//! of what sensors see by regular transmission.
 
 use crate::compute::room::sunlit_part::SunlitPart;
 use std::sync::OnceLock;
 
-/// Sunlit part of an aperture by hour, each computed at its first use.
+/// Sunlit part of an aperture in each hour of a year, computed at its first use.
 pub(crate) type SunlitYear = Vec<OnceLock<SunlitPart>>;
 
-/// Values of a sky by hour, each computed at its first use; in single precision, 6 · 10⁻⁸ of each value.
+/// Values of a sky in each hour of a year, computed at their first use; in single precision, 6 · 10⁻⁸ of each value.
 pub(crate) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
 
 impl SkyYear {

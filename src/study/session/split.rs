@@ -1,12 +1,12 @@
-//! Apertures whose points see the outside differently, divided into parts, each with its own outside and its own
+//! Division of an aperture whose points see the outside differently into parts, each with its own outside and its own
 //! light.
 //!
-//! The outside is evaluated at 3 × 3 points of a part (Gauss's), and light is a parabola between them; two more points
-//! near opposite corners test whether it is. An aperture is first cut where planes of near faces meet it (see
-//! [`super::creases`]). Then the part with the largest remaining error is halved across the side with the largest
-//! curvature, until the error of the parabolas is small against the error target; where light hardly changes over the
-//! whole aperture, as with distant obstructions only, nothing is split. Regular transmission is evaluated for every
-//! sensor by itself; its flux is that of the parts.
+//! The outside is evaluated at 3 × 3 points (Gauss's) of a part, and its light is taken as a parabola between them; two
+//! more points near opposite corners test this. An aperture is first cut along its creases, where planes of near faces
+//! meet it (see [`super::creases`]). Then the part with the largest remaining error is halved across the side with the
+//! largest curvature, until the error of the parabolas is small against the error target; where light hardly changes
+//! over the whole aperture, as with distant obstructions only, nothing is divided. Regular transmission is evaluated
+//! for every sensor separately; its flux is the sum over the parts.
 
 use super::creases::{creases, cut_along};
 use super::part::{Part, WHOLE, area, halves, middle, part_of};
@@ -22,13 +22,15 @@ use crate::study::scene_file::ORDINARY_TARGET;
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Outer points of Gauss's rule with three points on −1 … 1; the third is 0.
+/// Position of the outer points of Gauss's rule with three points on −1 … 1; the third is at 0.
 const POINT: f64 = 0.774_596_669_241_483_4;
 /// Weights of the three points of Gauss's rule; their sum is 1.
 const WEIGHTS: [f64; 3] = [5.0 / 18.0, 4.0 / 9.0, 5.0 / 18.0];
-/// Points near two corners of a part, −1 … 1, at which the parabola is tested: steep changes lie along borders.
+/// Positions of the two test points of a part, −1 … 1 along both sides; near corners, because steep changes lie along
+/// borders.
 const TRIED: [[f64; 2]; 2] = [[-0.9, -0.9], [0.9, 0.9]];
-/// Share of the deviation at the test points that counts as error: between the nodes it is smaller, and of both signs.
+/// Share of the deviation at the test points that counts as error, because between the nodes it is smaller and of both
+/// signs.
 const TRIED_SHARE: f64 = 0.2;
 /// Weights of the nine nodes of a part; their sum is 1.
 const NODES: [f64; 9] = {
@@ -40,58 +42,61 @@ const NODES: [f64; 9] = {
     }
     all
 };
-/// Relative change of light over a piece up to which the room's patches take it as uniform.
+/// Relative change of the luminous exitance over a piece of an aperture up to which the patches of the room take it as
+/// uniform.
 const EVEN: f64 = 0.15;
-/// Maximum number of parts where the response of the system costs little.
+/// Maximum number of parts of an aperture if evaluating the system costs little.
 const MOST_PARTS: usize = 100;
-/// Maximum number of parts where the response of the system has to be interpolated again for every point.
+/// Maximum number of parts of an aperture if the system's response has to be interpolated again for every point.
 const MOST_DEAR_PARTS: usize = 4;
-/// Maximum number of parts where nothing is scattered.
+/// Maximum number of parts of an aperture if its system does not scatter.
 const MOST_STRAIGHT_PARTS: usize = 20;
 /// Share of the error target that the parabolas over the parts may use.
 const SHARE: f64 = 0.05;
-/// Relative change over the aperture up to which its light is taken as the same all over.
+/// Relative change of the emitted flux per area over the aperture up to which its light is taken as uniform.
 const SAME: f64 = 4e-3;
-/// Relative error of the light at the points beyond its own error; references differ by up to 4e-4.
+/// Relative error of the light at the points in addition to its stated one; references differ by up to 4e-4.
 const AT_POINTS: f64 = 2e-4;
-/// Maximum relative change of light from one tile of a part to the next.
+/// Maximum relative change of the light from one tile of a part to the next.
 const STEP: f64 = 0.015;
 /// Maximum number of tiles of a part along one side.
 const MOST_TILES: f64 = 12.0;
 
-/// Outside as seen from one point, and the light that the system makes of it, frame and dirt included.
+/// Outside as seen from one point of an aperture, and the light that the system emits there, reduced by frame and dirt.
 struct Node {
     emission: Emission,
-    /// Scattered light by emergent direction, then regular transmission, per area. \[lm/m²\]
+    /// Luminous fluxes per area: of scattered light by emergent direction, then of regular transmission. \[lm/m²\]
     fluxes: Vec<f64>,
-    /// Luminous exitance on the room side. \[lm/m²\]
+    /// Luminous exitance on the room side at the point. \[lm/m²\]
     exitance: Estimate,
     /// Position of the point in the world frame. \[m\]
     eye: DVec3,
 }
 
-/// Part of an aperture with the light at its nodes.
+/// Part of an aperture with the light at its nodes, between which it is a parabola.
 pub(super) struct Leaf {
     pub part: Part,
-    /// The nine nodes, row by row.
+    /// Light at the nine nodes, row by row.
     nodes: Vec<Node>,
-    /// Relative change of the part's light from border to border along both sides.
+    /// Relative change of the emitted flux per area from border to border, summed over directions, along both sides of
+    /// the part.
     pub change: [f64; 2],
-    /// Curvature of the part's light along both sides: distance of the parabola's middle from the straight line,
-    /// relative.
+    /// Relative curvature of the emitted flux per area along both sides: distance of the parabola's middle from the
+    /// straight line.
     bend: [f64; 2],
-    /// Mean deviation of the parabola at the test points: all light per area, and its uniform part. \[lm/m², cd/m²\]
+    /// Mean deviation of the parabola at the test points: of the exitance \[lm/m²\], and of the luminance that is the
+    /// same in all directions \[cd/m²\].
     off: [f64; 2],
 }
 
-/// Returns the weights of the three points of Gauss's rule at the place `x`, −1 … 1.
+/// Returns the weights of the three points of Gauss's rule for a parabola at the position `x`, −1 … 1.
 fn parabola(x: f64) -> [f64; 3] {
     let t = x / POINT;
     [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)]
 }
 
 impl Leaf {
-    /// Creates a part from `nodes`: the nine of Gauss's rule, then the test points.
+    /// Creates a part from the light at its points: the nine nodes of Gauss's rule, then the test points.
     fn new(part: Part, mut nodes: Vec<Node>) -> Self {
         // Where no light enters, as under a box on the glass, the light has no emergent directions.
         let count = nodes.iter().map(|node| node.fluxes.len()).max().unwrap_or(0);
@@ -122,7 +127,7 @@ impl Leaf {
         leaf
     }
 
-    /// Returns the weights of the nine nodes at a place, −1 … 1 along both sides.
+    /// Returns the weights of the nine nodes at a position, −1 … 1 along both sides.
     fn weights(&self, x: f64, y: f64) -> [f64; 9] {
         let (a, b) = (parabola(x), parabola(y));
         std::array::from_fn(|k| a[k % 3] * b[k / 3])
@@ -133,20 +138,20 @@ impl Leaf {
         own.sum::<f64>() * area(self.part)
     }
 
-    /// Returns how much light rises and falls along both sides, relative: along the straight line, and by the
-    /// curvature on it. A symmetric part does not change from border to border and is not uniform.
+    /// Returns the relative rise and fall of the light along both sides: by the straight line, and by the curvature on
+    /// it. The light of a symmetric part does not change from border to border, and yet is not uniform.
     fn uneven(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.change[axis] + 2.0 * self.bend[axis])
     }
 
-    /// Returns the error of the parabola along both sides, relative: the next term of a series whose terms fall as
-    /// those of an exponential function do, and half as much again.
+    /// Returns the relative error of the parabola along both sides: the next term of a series whose terms fall like
+    /// those of an exponential function, and half as much again.
     fn rest(&self) -> [f64; 2] {
         [0, 1].map(|axis| self.bend[axis] * (0.5 * self.change[axis] + self.bend[axis]) / 2.0)
     }
 
-    /// Returns the error of the parabola as flux per area of the aperture, and the error found at the test points.
-    /// \[lm/m²\]
+    /// Returns the error of the parabola, and the error found at the test points, both as flux per area of the
+    /// aperture. \[lm/m²\]
     fn left_over(&self) -> [f64; 2] {
         let flux = self.flux();
         // Errors of the points themselves, three times as large where the parabola extends beyond them.
@@ -154,20 +159,20 @@ impl Leaf {
         [self.rest().iter().sum::<f64>() * flux, TRIED_SHARE * off]
     }
 
-    /// Returns all errors of the parabola relative to the flux.
+    /// Returns the sum of both errors of the parabola, relative to the flux.
     fn rough(&self) -> f64 {
         let flux = self.flux();
         if flux > 0.0 { self.left_over().iter().sum::<f64>() / flux } else { 0.0 }
     }
 
-    /// Returns the light at a place, −1 … 1 along both sides.
+    /// Returns the light at a position, −1 … 1 along both sides.
     fn at(&self, x: f64, y: f64) -> Emission {
         let parts: Vec<(f64, &Emission)> =
             self.weights(x, y).into_iter().zip(self.nodes.iter().map(|node| &node.emission)).collect();
         Emission::mixed(&parts)
     }
 
-    /// Returns the part's uniform light, which is the same in all directions.
+    /// Returns the light of the part that has the same luminance in all directions.
     pub fn smooth(&self, aperture: &Aperture) -> Smooth {
         let values = std::array::from_fn(|k| self.nodes[k].emission.uniform.value);
         let own = self.nodes.iter().zip(NODES).map(|(node, weight)| weight * node.emission.uniform.error);
@@ -180,15 +185,15 @@ impl Leaf {
         }
     }
 
-    /// Returns the tiles of the part, each with the light at its middle.
+    /// Returns the tiles into which the part is divided, each with the light at its centre.
     pub fn tiles(&self) -> Vec<(Part, Emission)> {
         let uneven = self.uneven();
         let count = uneven.map(|change| (change / STEP).ceil().clamp(1.0, MOST_TILES));
         self.cut(count, uneven.iter().zip(count).map(|(change, count)| change / count / 8.0).sum())
     }
 
-    /// Returns the part's light that is not the same in all directions, as tiles for one sensor; empty where there is
-    /// none.
+    /// Returns the light of the part that is not the same in all directions, as tiles that are small enough for one
+    /// sensor; empty if there is none.
     pub fn tiles_for(&self, aperture: &Aperture, sensor: &Sensor) -> Vec<(Part, Emission)> {
         if self.any().cells.is_empty() && self.any().bands.is_empty() {
             return Vec::new();
@@ -200,7 +205,8 @@ impl Leaf {
         tiles
     }
 
-    /// Cuts the part into `count` tiles along both sides, whose steps add the relative error `steps` at a sensor.
+    /// Cuts the part into `count` tiles along both sides, with the light at the centre of each. `steps`: relative error
+    /// by the steps from tile to tile, which is added to the light.
     fn cut(&self, count: [f64; 2], steps: f64) -> Vec<(Part, Emission)> {
         let [columns, rows] = count.map(|count| count as usize);
         let place = |axis: usize, at: usize| {
@@ -217,7 +223,8 @@ impl Leaf {
         (0..columns).flat_map(|i| (0..rows).map(move |k| (i, k))).map(tile).collect()
     }
 
-    /// Returns means over the part: regular transmission per area \[lm/m²\], and incident illuminance \[lx\].
+    /// Returns means over the part: luminous exitance by regular transmission \[lm/m²\], and illuminance from outside
+    /// \[lx\].
     pub fn means(&self) -> [Estimate; 2] {
         let mean = |of: &dyn Fn(&Node) -> Estimate| {
             self.nodes.iter().zip(NODES).map(|(node, weight)| of(node) * weight).sum::<Estimate>()
@@ -231,18 +238,18 @@ impl Leaf {
         ]
     }
 
-    /// Whether no light is scattered uniformly.
+    /// Whether the part emits no light that is the same in all directions.
     fn is_straight(&self) -> bool {
         self.nodes.iter().all(|node| node.emission.uniform.value <= 0.0)
     }
 
-    /// Returns the flux of regular transmission at a node, per area. \[lm/m²\]
+    /// Returns the luminous exitance by regular transmission at a node. \[lm/m²\]
     fn through(&self, node: &Node) -> f64 {
         node.fluxes.last().copied().filter(|_| self.any().regular.is_some()).unwrap_or(0.0)
     }
 
-    /// Returns points from which the outside is seen through the part by regular transmission, with their shares of
-    /// the aperture: all nine, or the middle with the share of all of them.
+    /// Returns points of the part (in the world frame \[m\]) from which the outside is seen by regular transmission,
+    /// each with the share of the aperture that it represents: all nine nodes, or the centre for all of them.
     pub fn eyes(&self, all: bool) -> Vec<(f64, DVec3)> {
         let through = |k: usize| self.through(&self.nodes[k]);
         let mean: f64 = (0..9).map(|k| NODES[k] * through(k)).sum();
@@ -253,7 +260,7 @@ impl Leaf {
         }
     }
 
-    /// Returns pieces over each of which the light is nearly uniform, at most `most` along one side.
+    /// Returns pieces of the part over each of which the light is nearly uniform, at most `most` along one side.
     pub fn pieces(&self, most: f64) -> Vec<Part> {
         let count = self.uneven().map(|change| (change / EVEN).ceil().clamp(1.0, most));
         let place = |axis: usize, at: usize| -> [f64; 2] {
@@ -264,24 +271,25 @@ impl Leaf {
         (0..columns).flat_map(|i| (0..rows).map(move |k| [place(0, i), place(1, k)])).collect()
     }
 
-    /// Returns the light with all kinds that the nodes have in common; dark nodes may lack some.
+    /// Returns the light at the node where it has most components (cells, bands, regular transmission); dark nodes may
+    /// lack some.
     pub fn any(&self) -> &Emission {
         fullest(self.nodes.iter().map(|node| &node.emission)).unwrap_or(&self.nodes[0].emission)
     }
 }
 
-/// Returns the light with all kinds that the parts have in common; `leaves` holds at least one part.
+/// Returns the light of the parts where it has most components; `leaves` contains at least one part.
 pub(super) fn any_of(leaves: &[Leaf]) -> &Emission {
     fullest(leaves.iter().map(Leaf::any)).unwrap_or(leaves[0].any())
 }
 
-/// Returns the first light of the list that has the largest number of kinds.
+/// Returns the first light of a list that has the largest number of components.
 fn fullest<'a>(list: impl Iterator<Item = &'a Emission>) -> Option<&'a Emission> {
     let kinds = |light: &Emission| light.cells.len() + light.bands.len() + usize::from(light.regular.is_some());
     list.reduce(|best, one| if kinds(one) > kinds(best) { one } else { best })
 }
 
-/// Adds a relative error, of parabolas and of steps from tile to tile, to all kinds of light.
+/// Adds a relative error, by parabolas and by steps from tile to tile, to all components of a light.
 fn add_relative_error(light: &mut Emission, relative: f64) {
     light.uniform.error += relative * light.uniform.value;
     light.cells.iter_mut().for_each(|cells| cells.relative_error += relative);
@@ -290,7 +298,7 @@ fn add_relative_error(light: &mut Emission, relative: f64) {
     }
 }
 
-/// Returns the scattered light of all parts as means over the aperture.
+/// Returns the scattered light of all parts as a mean over the aperture.
 pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
     let points = leaves
         .iter()
@@ -303,27 +311,27 @@ pub(super) fn mean_of(leaves: &[Leaf]) -> Emission {
     mean
 }
 
-/// Uniform light of a part, the same in all directions, as a parabola over the part.
+/// Light of a part that has the same luminance in all directions, as a parabola over the part.
 pub(super) struct Smooth {
     part: Aperture,
     /// Luminance at the nine nodes, row by row. \[cd/m²\]
     values: [f64; 9],
     /// Relative rise and fall of the luminance along both sides.
     uneven: [f64; 2],
-    /// Relative error of the parabola.
+    /// Relative error of the luminance by the parabola.
     relative: f64,
-    /// Error of the luminance at the nodes, besides that of the parabola. \[cd/m²\]
+    /// Error of the luminance at the nodes, in addition to that of the parabola. \[cd/m²\]
     error: f64,
 }
 
-/// Rule by which light that changes over a part is cut into tiles for a sensor: the finer the nearer the part is. A
-/// change over a tile that looks the same from end to end does not count; the error is a part of the rest, in
-/// proportion to tile size over distance.
+/// Rule by which a part whose light varies is cut into tiles for a sensor, more finely the nearer it is. A variation
+/// over a tile that the sensor sees under the same angle throughout does not matter; the error is a share of the rest,
+/// in proportion to the ratio of tile size to distance.
 struct Cut {
-    /// Factor of change times tile size over distance that gives the error: larger for cells, of which a sensor sees
-    /// one here and another beside it.
+    /// Factor from the relative change over a tile times its size over its distance to the error; larger for light on
+    /// cells, since a sensor sees one cell here and another beside it.
     part: f64,
-    /// Angular size of a tile above which its error does not grow: for cells, the width of a cell. \[rad\]
+    /// Angular size of a tile above which its error does not grow; for light on cells, the width of a cell. \[rad\]
     near: f64,
     /// Maximum relative error of the tiles at a sensor.
     allowed: f64,
@@ -335,7 +343,8 @@ const TILES_OF_UNIFORM: Cut = Cut { part: 1.0 / 6.0, near: 3.0, allowed: 1e-4, m
 const TILES_OF_CELLS: Cut = Cut { part: 1.25, near: 0.2, allowed: 1.5e-3, most: 8.0 };
 
 impl Cut {
-    /// Returns the numbers of tiles along both sides, and the relative error that their steps leave.
+    /// Returns the numbers of tiles along both sides, and the relative error that remains. `change`: relative change
+    /// along both sides; `size`, `distance`: of the part. \[m\]
     fn of(&self, change: [f64; 2], size: [f64; 2], distance: f64) -> ([f64; 2], f64) {
         let cost = |axis: usize, count: f64| {
             let tile = size[axis] / count / distance.max(1e-6);
@@ -347,12 +356,12 @@ impl Cut {
 }
 
 impl Smooth {
-    /// Whether the part has uniform light.
+    /// Whether the part emits any light that is the same in all directions.
     pub fn is_lit(&self) -> bool {
         self.values.iter().any(|value| *value > 0.0)
     }
 
-    /// Returns the illuminance at a sensor. \[lx\]
+    /// Returns the illuminance at a sensor by this light. \[lx\]
     pub fn at(&self, sensor: &Sensor) -> Estimate {
         let distance = self.part.distance(sensor.position);
         let (count, steps) = TILES_OF_UNIFORM.of(self.uneven, self.part.size, distance);
@@ -378,7 +387,7 @@ impl Smooth {
 }
 
 impl Session {
-    /// Computes the light of sky and ground at one point of an aperture.
+    /// Computes the light of sky and ground at one point of an aperture. `at`: position, 0 … 1 along both sides.
     fn node(&self, scene: &Scene, index: usize, at: [f64; 2]) -> Node {
         let one = &scene.apertures[index];
         let eye = scene.orientation.to_world(part_of(&one.aperture, [[at[0], 1.0], [at[1], 1.0]]).corner);
@@ -393,7 +402,7 @@ impl Session {
         Node { emission, fluxes, exitance, eye }
     }
 
-    /// Computes all points of several parts at once.
+    /// Computes several parts of an aperture, with the light at all their points.
     fn asked(
         &self,
         scene: &Scene,
@@ -417,7 +426,7 @@ impl Session {
         Ok(leaves)
     }
 
-    /// Computes the parts of an aperture.
+    /// Divides an aperture into parts, and computes the light of sky and ground on them.
     ///
     /// # Errors
     /// Returns an error if cancelled.
@@ -464,7 +473,7 @@ impl Session {
         }
     }
 
-    /// Whether the light is the same all over the aperture.
+    /// Whether the light is uniform over the whole aperture.
     pub(super) fn same_all_over(leaves: &[Leaf]) -> bool {
         leaves.len() == 1 && leaves[0].change.iter().chain(&leaves[0].bend).all(|change| *change <= SAME)
     }

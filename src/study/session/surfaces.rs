@@ -1,5 +1,5 @@
-//! Light on the surfaces of the room: means over the patches between which light is balanced, and the outlines of the
-//! areas that the sun's beams light.
+//! Illuminances of the surfaces of the room: means over the patches between which interreflection is computed, and the
+//! outlines of the areas that beams of sunlight light.
 
 use super::interreflected::{DIFFERENCE_ALONE, PATCHES, REST, mesh_key, mirrors};
 use super::{Session, check};
@@ -17,19 +17,19 @@ use std::sync::Arc;
 /// Number of steps that progress reports.
 const STEPS: usize = 3;
 
-/// Illuminance of one patch, as a mean over it.
+/// Illuminance of one patch of the room's surfaces, as a mean over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PatchLight {
     /// Position and reflectance of the patch.
     pub patch: Patch,
-    /// Illuminance by all light but the sun's beams that reach the patch without reflection. \[lx\]
+    /// Illuminance by all light, except beams of sunlight that reach the patch without reflection. \[lx\]
     pub diffuse: Estimate,
-    /// Illuminance by the sun's beams that reach the patch without reflection. \[lx\]
+    /// Illuminance by beams of sunlight that reach the patch without reflection. \[lx\]
     pub beam: f64,
 }
 
 impl PatchLight {
-    /// Returns the illuminance of the patch. \[lx\]
+    /// Returns the total illuminance of the patch. \[lx\]
     pub fn total(&self) -> Estimate {
         self.diffuse + Estimate::exact(self.beam)
     }
@@ -40,16 +40,17 @@ impl PatchLight {
 pub struct SurfaceLight {
     /// Walls of the room: floor, ceiling, x = 0, x = width, façade, back wall.
     pub walls: Vec<Wall>,
-    /// Patches wall by wall, first axis slowest; the room sides of apertures are among them.
+    /// Patches of all walls, wall by wall, first axis slowest; the room sides of apertures are among them.
     pub patches: Vec<PatchLight>,
-    /// Areas that the sun's beams light without reflection; illuminances of overlapping pieces add up.
+    /// Areas that beams of sunlight light without reflection, with their illuminances, which add up where areas
+    /// overlap.
     pub lit: Vec<Lit>,
-    /// Flux that enters through all apertures. \[lm\]
+    /// Luminous flux that enters the room through all apertures. \[lm\]
     pub flux: Estimate,
 }
 
 impl Session {
-    /// Computes the illuminance of every surface of the room.
+    /// Computes the illuminances of all surfaces of the room.
     ///
     /// # Errors
     /// Returns an error if the scene cannot be computed, with the reason, or if cancelled.

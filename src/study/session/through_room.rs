@@ -1,4 +1,5 @@
-//! Interreflected light at the sensors by the room alone: apertures that reflect by direction are black here.
+//! Interreflected light at the sensors by the surfaces of the room alone: apertures that reflect by direction count as
+//! black.
 
 use super::weights::{ByCells, Response, TOGETHER};
 use super::{Session, basis_key};
@@ -11,35 +12,35 @@ use crate::study::cache::Key;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Responses of all sensors, and the room that they belong to.
+/// Responses of all sensors to light on the patches of the room, by the room's surfaces alone.
 pub(super) struct ThroughRoom {
-    /// Factored balance of the room.
+    /// Room with its interreflection solved (factored).
     pub radiosity: Arc<Radiosity>,
-    /// Responses of the sensors, in the order of the scene.
+    /// Responses of the sensors to the first illuminance of each patch, in the order of the scene.
     pub sensors: Arc<Vec<Response>>,
     /// Key of the room in caches.
     pub key: Key,
-    /// Key of the room's patches in caches.
+    /// Key of the room's patches in caches, without reflectances.
     pub mesh_key: Key,
-    /// Geometry of the apertures.
+    /// Positions and sizes of the apertures.
     pub geometry: Vec<Aperture>,
     /// Key of the sensors in caches.
     pub sensor_key: Key,
 }
 
-/// Returns the weights of a sensor: its value, and `with_uncertainty` those of its walls.
+/// Returns the weights of a sensor's response: those of its value, and with `with_uncertainty` those of its walls.
 fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = &[f64]> {
     std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| with_uncertainty)).map(Vec::as_slice)
 }
 
 impl ThroughRoom {
-    /// Returns what the patches receive from an aperture by the cells of a basis.
+    /// Returns the weights with which the patches of the room receive light from an aperture by the cells of a basis.
     pub fn weights(&self, session: &Session, index: usize, basis: &Arc<RingBasis>) -> Arc<PatchWeights> {
         session.patch_weights(&self.mesh_key, &self.radiosity.nested.fine, &self.geometry[index], basis)
     }
 
-    /// Returns the sensors' weights of the luminance of an aperture's cells, by way of the room alone, computed or
-    /// kept. `with_uncertainty`: with those of its walls.
+    /// Returns the interreflected illuminances at the sensors per luminance of an aperture's cells, by the room alone;
+    /// computed or stored. `with_uncertainty`: whether the differences of the meshes are included.
     pub fn through_room(
         &self,
         session: &Session,
@@ -51,8 +52,8 @@ impl ThroughRoom {
         session.by_cells.find(self.cells_key(index, basis, with_uncertainty), find)
     }
 
-    /// Returns the sensors' weights by node, for light that is 1 at one of the aperture's nodes and 0 at the others;
-    /// computed or kept.
+    /// Returns the interreflected illuminances at the sensors per luminance of an aperture's cells for each node of the
+    /// aperture, for light that is 1 at that node and 0 at the others; computed or stored.
     pub fn through_room_by_node(
         &self,
         session: &Session,
@@ -75,6 +76,8 @@ impl ThroughRoom {
         key
     }
 
+    /// Computes the illuminances at the sensors per luminance of an aperture's cells. `weights`: weights with which the
+    /// patches receive its light.
     fn by_cells(&self, weights: &PatchWeights, with_uncertainty: bool) -> ByCells {
         let block = |sensors: &[Response]| {
             let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, with_uncertainty)).collect();

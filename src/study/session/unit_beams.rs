@@ -1,8 +1,8 @@
-//! Interreflected light of beams whose direction is that of the sun or its mirror image by planes along the aperture's
-//! axes.
+//! Interreflected light of beams of 1 lm whose direction is that of undeviated sunlight, or its mirror image at planes
+//! along the aperture's axes.
 //!
-//! Panes, holes and what passes between slats transmit it undeviated, cut panels redirect it upwards. Every system
-//! meets the same suns, so that such a beam is computed once for all of them.
+//! Panes, holes and gaps between slats transmit sunlight undeviated, laser-cut panels redirect it upwards. Every system
+//! meets the same sun positions, so that such a beam is computed once for all systems.
 
 use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use crate::compute::direction::{Dir, Facade};
@@ -15,45 +15,46 @@ use glam::DVec3;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Maximum distance between a beam's direction and one of these at which the latter is used: a millimetre on the floor
-/// of a room. Where the disc itself is seen, the beam's direction counts. \[rad\]
+/// Maximum distance between the direction of a beam and one of these directions at which the latter is used: a
+/// millimetre on the floor of a room. The solar disc itself is seen in the direction of the beam. \[rad\]
 const SAME: f64 = 3e-4;
-/// Maximum count of numbers that are kept: enough for 3,400 suns at 96 sensors.
+/// Maximum number of values that are stored: enough for 3,400 sun positions at 96 sensors.
 const MOST_NUMBERS: usize = 4_000_000;
-/// Factors of the mirror images of a direction by the planes along the aperture's axes.
+/// Factors that mirror a direction at the planes along the aperture's axes.
 const IMAGES: [DVec3; 4] =
     [DVec3::ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(-1.0, -1.0, 1.0)];
 
-/// Number of the aperture that a beam comes through, and the beam's direction.
+/// Index of the aperture through which a beam enters, and the bits of the beam's direction.
 type Key = (usize, [u64; 3]);
 
-/// Responses of a room to beams, with those beams of 1 lm that were computed so far.
+/// Responses of a room to beams, with the beams of 1 lm that were computed so far.
 pub(crate) struct UnitBeams {
     responses: BeamResponses,
     known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
 }
 
-/// Interreflected light of a beam of 1 lm.
+/// Interreflected light of a beam of 1 lm at the sensors.
 pub(crate) struct UnitBeam {
-    /// Values sensor by sensor: light after two reflections or more, its uncertainty by the position of the beam
-    /// within a patch, light after one reflection with the beam's sharp outline; then the differences of the two
-    /// densities. \[lx/lm\]
+    /// Illuminances sensor by sensor: after two reflections or more, their uncertainty by the position of the beam
+    /// within a patch, after one reflection with the beam's sharp outline; then the differences between the fine and
+    /// the coarse mesh. \[lx/lm\]
     numbers: Vec<f32>,
-    /// Patches that the beam lights, and their illuminance. \[lx/lm\]
+    /// Patches of the room that the beam lights, with their illuminances. \[lx/lm\]
     patches: Vec<(u32, f32)>,
 }
 
-/// Sum of the reflected light of beams.
+/// Sum of the reflected light of several beams.
 pub(crate) struct Together {
-    /// Light after two reflections or more.
+    /// Illuminances at the sensors after two reflections or more.
     pub light: ReflectedBeamLight,
-    /// Illuminance after one reflection with sharp outlines, sensor by sensor. \[lx\]
+    /// Illuminances after one reflection with the sharp outlines of the beams, sensor by sensor. \[lx\]
     pub sharp: Vec<f64>,
-    /// Direct illuminance of the patches by the beams. \[lx\]
+    /// Direct illuminances of the patches of the room by the beams. \[lx\]
     pub direct: Vec<f64>,
 }
 
-/// Returns the direction that represents a beam's; `None` where no image of the sun is near enough.
+/// Returns the direction of undeviated sunlight, or its mirror image, that can represent the direction of a beam;
+/// `None` if none is near enough.
 fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
     let to = beam.entering(facing)?.vector();
     let sun = if beam.straight { facing.sun_entering()? } else { facing.sun_direction()? }.vector();
@@ -62,18 +63,18 @@ fn standing_for(beam: &BeamLight, facing: &Facing<'_>) -> Option<Dir<Facade>> {
 }
 
 impl UnitBeams {
-    /// Creates the store without any beam of 1 lm.
+    /// Creates an empty store of beams of 1 lm.
     pub fn new(responses: BeamResponses) -> Self {
         Self { responses, known: Mutex::default() }
     }
 
-    /// Returns the responses to beams of any direction.
+    /// Returns the responses of the sensors to beams of any direction.
     pub fn responses(&self) -> &BeamResponses {
         &self.responses
     }
 
-    /// Returns the light of a beam of 1 lm through an aperture of the scene; `None` where the beam has to be computed
-    /// by itself.
+    /// Returns the light of a beam of 1 lm through an aperture of the scene, computed or stored; `None` if the beam has
+    /// another direction and has to be computed separately.
     pub fn of(
         &self,
         scene: &Scene,
@@ -99,6 +100,7 @@ impl UnitBeams {
 }
 
 impl UnitBeam {
+    /// Computes the light of a beam of 1 lm. `to`: direction from which undeviated light would leave like the beam.
     fn new(scene: &Scene, index: usize, to: Dir<Facade>, radiosity: &Radiosity, responses: &BeamResponses) -> Self {
         let aperture = &scene.apertures[index].aperture;
         let mesh = &radiosity.nested.fine;
@@ -118,14 +120,14 @@ impl UnitBeam {
 }
 
 impl Together {
-    /// Returns the sum of no beams.
+    /// Returns the sum of no beams, with illuminances of 0.
     pub fn dark(radiosity: &Radiosity, responses: &BeamResponses) -> Self {
         let light = responses.dark();
         let sharp = vec![0.0; light.values.len()];
         Self { light, sharp, direct: vec![0.0; radiosity.nested.fine.patches.len()] }
     }
 
-    /// Adds a beam of the given flux. \[lm\]
+    /// Adds the light of a beam of 1 lm, times its flux. \[lm\]
     pub fn add(&mut self, unit: &UnitBeam, flux: f64) {
         let add = |sums: &mut [f64], numbers: &[f32]| {
             wide(|| sums.iter_mut().zip(numbers).for_each(|(sum, e)| *sum += flux * f64::from(*e)));
@@ -141,7 +143,8 @@ impl Together {
         }
     }
 
-    /// Adds beams that were computed by themselves: their light and the direct illuminance of the patches.
+    /// Adds the light of beams that were computed separately, and the direct illuminances of the patches by them.
+    /// \[lx\]
     pub fn add_others(&mut self, light: &ReflectedBeamLight, direct: &[f64]) {
         let add = |sums: &mut [f64], more: &[f64]| sums.iter_mut().zip(more).for_each(|(sum, e)| *sum += e);
         add(&mut self.light.values, &light.values);

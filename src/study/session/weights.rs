@@ -1,28 +1,29 @@
-//! Weights of light at the sensors, as a session keeps them.
+//! Responses of the sensors to light on the patches of the room and on cells, for storage in a session.
 
 use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
 use std::ops::Range;
 
-/// Number of sensors whose weights are computed together, by one product of matrices.
+/// Number of sensors whose responses are computed together, by one matrix product.
 pub(super) const TOGETHER: usize = 32;
 
-/// Response of one sensor: weights by fine patch.
+/// Response of one sensor to light on each patch of the fine mesh.
 pub(crate) struct Response {
-    /// Interreflected light per first illuminance of each patch. \[lx per lx\]
+    /// Interreflected illuminance per illuminance of each patch before interreflection. \[lx per lx\]
     pub value: Vec<f64>,
-    /// Differences of the two densities, wall by wall. \[lx per lx\]
+    /// Differences of these between the fine and the coarse mesh, wall by wall. \[lx per lx\]
     pub walls: Vec<Vec<f64>>,
 }
 
-/// Weights of the luminance of cells, sensor by sensor.
+/// Interreflected illuminances at the sensors per luminance of each emergent cell, sensor by sensor. \[lx per cd/m²\]
 pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
-    /// Differences of the two densities, wall by wall; empty where not requested.
+    /// Differences of these illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall; empty
+    /// where not requested. \[lx per cd/m²\]
     pub walls: Vec<Vec<Vec<f64>>>,
 }
 
-/// Returns the weights of the patches of each wall that a sensor sees, fine and coarse.
+/// Returns the weights with which a sensor sees the patches of each wall, in the fine and the coarse mesh.
 pub(super) fn by_walls(radiosity: &Radiosity, fine: &[f64], coarse: &[f64]) -> Vec<[Vec<f64>; 2]> {
     let only = |weights: &[f64], range: Range<usize>| -> Vec<f64> {
         let mut own = vec![0.0; weights.len()];

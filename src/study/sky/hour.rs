@@ -9,31 +9,31 @@ use crate::study::weather::kept;
 use crate::study::weather_keys::reading;
 use std::path::Path;
 
-/// Maximum distance of a scene from its weather station, in latitude and in longitude, without a warning. \[°\]
+/// Maximum difference in latitude and in longitude between a scene and its weather station without a warning. \[°\]
 const SAME_PLACE: f64 = 0.5;
 /// Maximum difference between the UTC offsets of a scene and of its weather without a warning. \[h\]
 const SAME_CLOCK: f64 = 0.5;
 
-/// Hour of a weather file that `sky.weather` and `sky.time` name.
+/// Hour of a weather file that the keys `sky.weather` and `sky.time` name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HourOfWeather {
-    /// Sun and light of the hour.
+    /// Position of the sun, irradiances and illuminances of the hour.
     pub hour: Hour,
-    /// Day of the row and the interval: `1958-03-21 12:00–13:00`.
+    /// Day and interval of the row in the weather file, such as `1958-03-21 12:00–13:00`.
     pub interval: String,
-    /// Name of the weather as the scene has it.
+    /// Name of the weather file or built-in year in the scene.
     pub name: String,
-    /// Station of the weather, whose place is used.
+    /// Weather station, whose geographic location is used.
     pub station: Station,
-    /// Time by which the interval was moved. \[min\]
+    /// Time by which the interval was shifted from that in the file. \[min\]
     pub offset: f64,
     /// Warnings for the user.
     pub warnings: Vec<String>,
 }
 
 impl HourOfWeather {
-    /// Returns one line with the hour, its irradiances, the position of its sun, its light and the method by which
-    /// that was found.
+    /// Returns a line of text with the hour, its irradiances and illuminances, the position of the sun, and the method
+    /// by which the illuminances were found.
     pub fn note(&self) -> String {
         let hour = &self.hour;
         let light = match hour.light {
@@ -56,7 +56,7 @@ impl HourOfWeather {
     }
 }
 
-/// Returns the weather hour of a scene's sky; `None` for skies of a model. `base`: folder that paths are relative to.
+/// Returns the weather hour of a scene's sky; `None` for skies of a model. `base`: folder to which paths are relative.
 ///
 /// # Errors
 /// Returns an error if keys do not go with `sky.weather`, a file cannot be read, or it does not hold the hour.
@@ -102,7 +102,7 @@ pub fn hour_of_weather(sky: &SkyKeys, site: &SiteKeys, base: &Path) -> Result<Op
     }))
 }
 
-/// Checks that no key of a model is given beside `sky.weather`, and none of the weather without it.
+/// Checks that no key of a sky model is given together with `sky.weather`, and no key of the weather without it.
 fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let by_weather = sky.model == SkyModelKey::Weather;
     if sky.weather.is_none() {
@@ -134,8 +134,8 @@ fn check_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     not_beside("sky.sun", sun.altitude.is_some() || sun.azimuth.is_some() || sun.direct_normal.is_some())
 }
 
-/// Returns a warning if the clock of a file disagrees with its own irradiances and nothing shifts it; `key`: the key
-/// that shifts it.
+/// Returns a warning if the clock of a weather file contradicts its own irradiances and no key corrects it. `key`: name
+/// of the key that would correct it.
 pub fn clock_warning(
     weather: &Weather,
     name: &Path,
@@ -155,13 +155,13 @@ pub fn clock_warning(
     })
 }
 
-/// Whether a scene states another place or clock than its weather, whose place and clock are used.
+/// Whether a scene states another location or UTC offset than its weather station, whose location and clock are used.
 pub fn is_elsewhere(station: &Station, site: &SiteKeys) -> bool {
     !site_warnings(station, site).is_empty()
 }
 
-/// Returns a warning for every key by which a scene states another place or clock than its weather, whose place and
-/// clock are used.
+/// Returns a warning for every key in which a scene states another location or UTC offset than its weather station,
+/// whose location and clock are used.
 pub fn site_warnings(station: &Station, site: &SiteKeys) -> Vec<String> {
     [
         ("site.latitude", site.latitude, station.latitude, SAME_PLACE, "°"),
@@ -176,7 +176,8 @@ pub fn site_warnings(station: &Station, site: &SiteKeys) -> Vec<String> {
     .collect()
 }
 
-/// Creates the hour's sky, scaled to its illuminance, over black ground. `by`: function that scales it.
+/// Creates the sky of a weather hour, scaled to its diffuse horizontal illuminance, over black ground. `by`: function
+/// that scales it.
 pub(super) fn sky_of(
     hour: &Hour,
     by: fn(Distribution, f64) -> Result<Outside, SkyError>,

@@ -1,4 +1,4 @@
-//! Illuminances to which a sky and its sun are scaled: as written, or by the sun's altitude.
+//! Illuminances to which a sky and its sun are scaled: given in the scene, or by the sun's altitude.
 
 use super::keys::{SkyKeyError, check_ranges, day_of_year, sun_direction, wrong};
 use crate::compute::direction::{Dir, World};
@@ -6,46 +6,46 @@ use crate::compute::sky::availability::{Cover, typical_illuminances};
 use crate::compute::sky::clear_sky::clear_sky_illuminances;
 use crate::study::scene_file::{IlluminanceKey, SiteKeys, SkyKeys, SkyModelKey};
 
-/// Altitude of the sun at which civil twilight ends: below it no CIE sky applies, and light on the ground is not of
+/// Solar altitude at which civil twilight ends; below it no CIE sky applies, and light on the ground does not come from
 /// the sun. \[rad\]
 pub const TWILIGHT: f64 = -6.0 * std::f64::consts::PI / 180.0;
 
-/// Source of illuminances.
+/// Source of the illuminances to which sky and sun are scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Source {
-    /// Values written in the scene.
+    /// Values given in the scene.
     Stated,
-    /// Clear sky by Linke turbidity and elevation \[m\]; Ineichen and Perez 2002.
+    /// Clear sky by Linke turbidity and elevation, after Ineichen and Perez 2002.
     ClearSky {
-        /// Linke turbidity of the air.
+        /// Linke turbidity of the atmosphere.
         turbidity: f64,
         /// Elevation above sea level. \[m\]
         elevation: f64,
     },
-    /// Typical values of a cloud cover; RP-21, 1984.
+    /// Typical values for a cloud cover, of IES RP-21, 1984.
     Cover(Cover),
 }
 
 /// Illuminances to which a sky and its sun are scaled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Illuminances {
-    /// Illuminance of a horizontal plane by the sky. \[lx\]
+    /// Diffuse horizontal illuminance by the sky. \[lx\]
     pub diffuse_horizontal: f64,
-    /// Illuminance of a plane facing the sun by its disc. \[lx\]
+    /// Direct normal illuminance by the sun. \[lx\]
     pub direct_normal: f64,
-    /// Source of the values.
+    /// Source of the illuminances: given in the scene, clear-sky model, or cloud cover.
     pub source: Source,
-    /// Altitude of the sun, where there is one. \[rad\]
+    /// True altitude of the sun; `None` if the scene does not give the sun. \[rad\]
     pub altitude: Option<f64>,
 }
 
 impl Illuminances {
-    /// Whether the illuminances follow the sun and it has set.
+    /// Whether the illuminances follow the sun's altitude and the sun has set, so that it is dark.
     pub fn is_night(&self) -> bool {
         self.source != Source::Stated && self.altitude.is_some_and(|altitude| altitude <= 0.0)
     }
 
-    /// Returns the source as text: `clear sky, Linke turbidity 3, 245 m above the sea`.
+    /// Returns the source as a translated text, such as `clear sky, Linke turbidity 3, 245 m above the sea`.
     pub fn origin(&self) -> String {
         match self.source {
             Source::Stated => "as written in the scene".to_owned(),
@@ -56,7 +56,7 @@ impl Illuminances {
         }
     }
 
-    /// Returns a sentence with the illuminances that are used, or that it is dark; `None` where the scene states them.
+    /// Returns a sentence with the illuminances that are used, or that it is dark; `None` if the scene gives them.
     pub fn note(&self) -> Option<String> {
         let altitude = self.altitude.filter(|_| self.source != Source::Stated)?.to_degrees();
         Some(if self.is_night() {
@@ -72,7 +72,8 @@ impl Illuminances {
     }
 }
 
-/// Returns the illuminances of a scene's sky; `None` for models that bring their own (Perez's, a measured one).
+/// Returns the illuminances to which a scene's sky is scaled; `None` for sky models with absolute values (Perez sky,
+/// measured sky).
 ///
 /// # Errors
 /// Returns an error that names the key that is wrong or missing.
@@ -84,7 +85,7 @@ pub fn illuminances(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Illuminance
     of_sun(sky, site, sun_direction(sky, site)?).map(Some)
 }
 
-/// Returns the illuminances for a known sun and keys in their ranges, of a model that takes illuminances.
+/// Returns the illuminances for a sky model that is scaled, from a known position of the sun and keys in their ranges.
 pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) -> Result<Illuminances, SkyKeyError> {
     let altitude = sun.map(Dir::altitude);
     if sky.illuminance == IlluminanceKey::Stated {
@@ -109,7 +110,7 @@ pub(super) fn of_sun(sky: &SkyKeys, site: &SiteKeys, sun: Option<Dir<World>>) ->
     Ok(Illuminances { diffuse_horizontal, direct_normal, source, altitude })
 }
 
-/// Returns the illuminances as written in the scene.
+/// Returns the illuminances that the scene gives. `altitude`: altitude of the sun. \[rad\]
 fn stated(sky: &SkyKeys, altitude: Option<f64>) -> Result<Illuminances, SkyKeyError> {
     let diffuse_horizontal = sky.diffuse_horizontal.ok_or_else(|| {
         let message = "missing: this model needs it, in lx; or illuminance = \"clear-sky\" or \"rp-21\"";

@@ -1,4 +1,4 @@
-//! Checks of the keys of `[sky]` and `[site]`, alone and together, and the position of the sun.
+//! Checks of the keys of `[sky]` and `[site]`, each and in combination, and the position of the sun that they give.
 
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, World};
@@ -16,21 +16,22 @@ pub const CLEANEST: f64 = 1.0;
 /// Maximum Linke turbidity: beyond it the sky is not a clear one.
 pub const HAZIEST: f64 = 12.0;
 
-/// Error of a key of the scene, with what was expected.
+/// Error of a key of the scene's sky or site, with what was expected.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key}: {message}")]
 pub struct SkyKeyError {
-    /// Full name of the key, e.g. `sky.type`.
+    /// Full name of the key, such as `sky.type`.
     pub key: &'static str,
     /// Message that says what is wrong and what was expected.
     pub message: String,
 }
 
+/// Creates the error about a wrong key.
 pub(super) fn wrong(key: &'static str, message: impl Into<String>) -> SkyKeyError {
     SkyKeyError { key, message: message.into() }
 }
 
-/// Checks the ranges that hold for all models.
+/// Checks the ranges of keys that apply to all sky models.
 ///
 /// # Errors
 /// Returns an error that names the first key out of range.
@@ -63,7 +64,7 @@ pub(super) fn check_ranges(sky: &SkyKeys, site: &SiteKeys) -> Result<(), SkyKeyE
     Ok(())
 }
 
-/// Checks that keys of one model are not given for another.
+/// Checks that no key of one sky model is given for another.
 pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     let only = |key, given: bool, model: SkyModelKey, name: &str| {
         if given && sky.model != model {
@@ -79,7 +80,7 @@ pub(super) fn check_model_keys(sky: &SkyKeys) -> Result<(), SkyKeyError> {
     only("sky.diffuse_horizontal_irradiance", diffuse.is_some(), SkyModelKey::Perez, "perez")
 }
 
-/// Returns the day of the year by the date of `sky.time`, 1 to 365; `None` without a date.
+/// Returns the day of the year for the date of `sky.time`, 1 to 365; `None` without a date.
 pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<u16>, SkyKeyError> {
     let Some(time) = &sky.time else { return Ok(None) };
     let time = parse_local_time(&time.text()).map_err(|error| wrong("sky.time", error.to_string()))?;
@@ -87,7 +88,8 @@ pub(super) fn day_of_year(sky: &SkyKeys) -> Result<Option<u16>, SkyKeyError> {
     Ok(day.map(Day::of_common_year))
 }
 
-/// Returns the direction of the sun from angles, or else from time; `None` with neither.
+/// Returns the direction of the sun in the world frame, from angles or else from time; `None` if the scene gives
+/// neither.
 pub(super) fn sun_direction(sky: &SkyKeys, site: &SiteKeys) -> Result<Option<Dir<World>>, SkyKeyError> {
     let angles = sky.sun.altitude.is_some() || sky.sun.azimuth.is_some();
     let Some(time) = sky.time.as_ref().filter(|_| !angles) else {

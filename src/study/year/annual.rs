@@ -1,33 +1,34 @@
-//! A year with its figures, and the scene that it belongs to.
+//! Annual simulation with its figures, and the scene for which it was computed.
 
 use super::fixed::{put_hour, put_ordinary};
 use super::{Figures, Year, figures};
 use crate::study::moment;
 use crate::study::scene_file::SceneFile;
 
-/// A year with its figures.
+/// Annual simulation with its figures.
 #[derive(Debug, Clone)]
 pub struct Annual {
-    /// Scene of the year without the parts that no year depends on, see [`question`].
+    /// Scene for which the year was computed, without the keys on which no year depends, see [`question`].
     pub of: SceneFile,
-    /// Hourly results.
+    /// Results of all steps of the year.
     pub year: Year,
-    /// Figures of the year, with all light lower by its error, and with all light higher.
+    /// Figures of the year as computed, with all light lower by its error, and with all light higher.
     pub figures: [Figures; 3],
 }
 
 impl Annual {
-    /// Creates the figures of a computed year of a scene.
+    /// Creates the figures of a year that was computed for the scene `file`.
     pub fn new(file: &SceneFile, year: Year) -> Self {
         Self { of: question(file), figures: figures(&year), year }
     }
 
-    /// Whether the year was computed for this scene, apart from its moment.
+    /// Whether the year was computed for this scene, whatever its date and time.
     pub fn is_of(&self, file: &SceneFile) -> bool {
         self.of == question(file)
     }
 
-    /// Returns the step that contains the scene's moment; `None` if its sky is not that of the year's weather.
+    /// Returns the index of the step that contains the scene's date and time; `None` if the scene's sky is not that of
+    /// the year's weather.
     pub fn now(&self, file: &SceneFile) -> Option<usize> {
         let keys = &self.year.settings.keys;
         let split = keys.steps_per_hour > 1;
@@ -39,7 +40,8 @@ impl Annual {
     }
 }
 
-/// Returns a scene without the parts that its year does not depend on: moment, sky, comparison and ranking.
+/// Returns a scene without the keys on which its annual simulation does not depend: date and time, sky, comparison and
+/// ranking.
 pub fn question(file: &SceneFile) -> SceneFile {
     let mut asked = SceneFile { rank: None, compare: Vec::new(), ..file.clone() };
     put_ordinary(&mut asked);
@@ -49,7 +51,8 @@ pub fn question(file: &SceneFile) -> SceneFile {
     asked
 }
 
-/// Returns the scene at a step of its year: sky and ground are those of the step; controls and year are unchanged.
+/// Returns the scene at a step of its annual simulation: sky and ground are those of the step; the keys of control and
+/// year are unchanged.
 pub fn at_step(file: &SceneFile, year: &Year, step: usize) -> SceneFile {
     let mut scene = file.clone();
     put_hour(&mut scene, &year.steps, step, &year.settings.keys);

@@ -1,8 +1,8 @@
-//! Daylight glare probability of every lit occupied step at every observer, from the illuminances of the year.
+//! Daylight glare probability (DGP) at every observer in every lit occupied step, from the illuminances of the year.
 //!
 //! Parts that do not change between steps are computed once for each set of states: the patches that an observer sees,
-//! and the luminance of each emergent cell by the outside. With data that are interpolated by another scheme the
-//! systems are evaluated again in every step.
+//! and the luminance of each emergent cell per light from outside. If data are interpolated by another scheme than the
+//! default, the systems are evaluated again in every step.
 
 use super::eye_light::{EyeLight, is_tabled};
 use super::fixed::{put_ordinary, with_states};
@@ -20,26 +20,27 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// DGP of the chosen steps: rows of steps, columns of observers; `None` in unoccupied and in dark steps.
+/// Daylight glare probability (DGP) in the chosen steps: rows of steps, columns of observers; `None` in unoccupied and
+/// in dark steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Dgp {
     /// Number of observers.
     pub eyes: usize,
-    /// Values, step by step.
+    /// DGP with its error, step by step, one value per observer.
     pub values: Vec<Option<Estimate>>,
-    /// Number of values outside the range that the formula was tested for with people.
+    /// Number of values outside the range for which the formula was validated with people.
     pub unproven: usize,
 }
 
 impl Dgp {
-    /// Returns the values of one step, one per observer.
+    /// Returns the DGP of one step, one value per observer. `step`: index among the chosen steps.
     pub fn row(&self, step: usize) -> &[Option<Estimate>] {
         &self.values[step * self.eyes..][..self.eyes]
     }
 }
 
-/// Computes the DGP of the chosen steps, given the states of all steps and the light of the chosen ones. Returns `None`
-/// if there are no observers, or if it is not requested.
+/// Computes the DGP of the chosen steps. Returns `None` if there are no observers, or if it is not requested. `states`:
+/// states of the moving apertures in all steps; `light`: illuminances in the chosen steps.
 ///
 /// # Errors
 /// Returns an error if the scene is wrong, or if cancelled.
@@ -98,20 +99,21 @@ pub(super) fn dgp(
     Ok(Some(found))
 }
 
-/// Glare for any sky and sun in one set of states.
+/// Computation of glare under any sky and sun, with the moving apertures in one set of states.
 struct Engine {
     scene: Scene,
-    /// Outside with boxes; `None` without any.
+    /// Obstructions outside, prepared for many skies; `None` if there are none.
     prepared: Option<Arc<Prepared>>,
-    /// Fields of view, one per observer.
+    /// Fields of view, one per observer: the patches of all apertures that it sees.
     fields: Vec<Field>,
-    /// Tables of diffuse light, one per aperture; empty if the systems are evaluated step by step.
+    /// Tables of the diffuse light, one per aperture; empty if the systems are evaluated step by step.
     tables: Vec<EyeLight>,
-    /// Outside without light, but with its skyline and boxes.
+    /// Outside without light, but with its skyline and boxes, for sunlight alone.
     dark: Option<Outside>,
 }
 
 impl Engine {
+    /// Prepares the scene with the states `set` of the moving apertures: obstructions, fields of view and tables.
     fn new(question: &Question<'_>, set: &[usize], progress: &dyn Progress) -> Result<Self, StudyError> {
         let mut file = with_states(question.file, question.moving, set);
         put_ordinary(&mut file);
@@ -136,7 +138,8 @@ impl Engine {
         Ok(Self { scene, prepared, fields, tables, dark })
     }
 
-    /// Computes the glare at every observer in one hour of the year, given the vertical illuminance at the eyes.
+    /// Computes the glare at every observer in one step of the year. `hour`: index of the step; `vertical`:
+    /// illuminances at the eyes. \[lx\]
     fn at(&self, question: &Question<'_>, hour: usize, vertical: &[Estimate]) -> Result<Vec<EyeGlare>, StudyError> {
         let (outside, sun) = question.steps.outside(hour)?;
         if !self.tables.is_empty() {
@@ -153,7 +156,7 @@ impl Engine {
         Ok(eyes.iter().zip(&self.fields).zip(vertical.iter().copied()).map(of).collect())
     }
 
-    /// Computes the glare with the light of the outside from tables and direct sun evaluated for the hour.
+    /// Computes the glare with diffuse light from the tables, and direct sunlight evaluated for the step.
     fn by_tables(
         &self,
         question: &Question<'_>,

@@ -1,5 +1,5 @@
-//! Direct sun alone at the sensors: what the apertures transmit without scattering, past skyline and boxes. Sky, ground
-//! and reflections are left out.
+//! Illuminance at the sensors by direct sun alone: sunlight that the apertures transmit without scattering, past
+//! skyline and boxes. Sky, ground and reflections are left out.
 
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::{BeamLight, Facing, SunThrough};
@@ -14,15 +14,15 @@ use crate::study::scene::Scene;
 use crate::study::scene_file::SceneFile;
 use std::sync::Arc;
 
-/// Scene with fixed states, for any sun position.
+/// Scene with fixed states, for the illuminance by direct sun at any position of the sun.
 pub(super) struct DirectSun {
     scene: Arc<Scene>,
-    /// Boxes that obstruct the sun; `None` if there are none.
+    /// Boxes outside that obstruct the sun; `None` if there are none.
     around: Option<Surroundings>,
 }
 
 impl DirectSun {
-    /// Creates the direct sun of a scene with the boxes outside it.
+    /// Creates the computation for a scene. `file`: scene file with the boxes outside.
     ///
     /// # Errors
     /// Returns an error if a box is not valid.
@@ -38,7 +38,8 @@ impl DirectSun {
         self.scene.sensors.len()
     }
 
-    /// Whether any aperture can transmit the sun unscattered. Systems with patch-averaged data alone do not.
+    /// Whether any aperture can transmit sunlight unscattered. Systems that are known by patch-averaged data alone do
+    /// not.
     pub fn passes(&self) -> bool {
         let scene = &*self.scene;
         let described = |index: usize| scene.beams && scene.apertures[index].system.model.is_some();
@@ -46,7 +47,7 @@ impl DirectSun {
         (0..scene.apertures.len()).any(|index| described(index) || regular(index))
     }
 
-    /// Computes the illuminance by direct sun through every aperture at every sensor, including frame and dirt. \[lx\]
+    /// Computes the illuminance by direct sun at every sensor, for each aperture, reduced by frame and dirt. \[lx\]
     pub fn by_aperture(&self, sun: &Sun) -> Vec<Vec<Estimate>> {
         let scene = &*self.scene;
         let of = |index: usize| {
@@ -65,7 +66,7 @@ impl DirectSun {
         (0..scene.apertures.len()).map(of).collect()
     }
 
-    /// Computes the illuminance by direct sun through all apertures at every sensor. \[lx\]
+    /// Computes the illuminance by direct sun at every sensor, through all apertures together. \[lx\]
     pub fn at(&self, sun: &Sun) -> Vec<f64> {
         let mut sums = vec![0.0; self.scene.sensors.len()];
         for aperture in self.by_aperture(sun) {
@@ -74,7 +75,7 @@ impl DirectSun {
         sums
     }
 
-    /// Returns the unscattered and undeviated beams behind an aperture.
+    /// Returns the beams of sunlight that leave an aperture unscattered and undeviated.
     fn beams(&self, index: usize, facing: &Facing<'_>) -> Vec<BeamLight> {
         let one = &self.scene.apertures[index];
         let beams = match one.system.model.as_ref().filter(|_| self.scene.beams) {

@@ -1,9 +1,9 @@
-//! Diffuse light of an aperture as observers see it, hour by hour at the cost of a small matrix product: luminances of
-//! the visible emergent cells by the light on each incident cell, and the outside seen through regular transmission in
-//! fixed directions.
+//! Luminance of an aperture by diffuse light as observers see it, step by step at the cost of a small matrix product:
+//! luminances of the visible emergent cells by the light through each incident cell, and the outside seen by regular
+//! transmission in fixed directions.
 //!
-//! For described systems, and for data of panes, ideal diffusers, patches, single directions or tensor trees. Behind
-//! boxes the scattered light is the mean over the aperture.
+//! It is available for described systems, and for data of panes, ideal diffusers, patches, single directions or tensor
+//! trees. Behind boxes the scattered light is the mean over the aperture.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf, Scattered};
@@ -27,35 +27,35 @@ use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
 
-/// Diffuse light of one aperture for several observers.
+/// Luminance of one aperture by diffuse light, prepared for several observers and any sky.
 pub(super) struct EyeLight {
     sky: Sky,
-    /// Stored light of the outside in the hours of the year; `None` if it is not stored.
+    /// Stored light of the outside in the steps of the year; `None` if it is not stored.
     year: Option<Arc<SkyYear>>,
-    /// Matrix with a row for each emergent cell that any observer sees. Columns: unobstructed incident cells, then
-    /// ground, then skyline; behind boxes the luminances of a moment.
+    /// Luminances of the emergent cells that any observer sees, one row each, per light from outside. Columns:
+    /// unobstructed incident cells, then ground, then skyline; behind boxes the luminances of the outside.
     rows: Vec<f64>,
     width: usize,
     eyes: Vec<OfEye>,
     clear: f64,
 }
 
-/// Representation of the outside.
+/// Representation of the outside: patches that are the same for the whole aperture, or luminances past boxes.
 enum Sky {
     Patches(Arc<SkyPatches>),
     Behind(Arc<Prepared>),
 }
 
-/// Part of an aperture that one observer sees.
+/// Luminances of an aperture for one observer, by patch of its field of view.
 struct OfEye {
-    /// Indices of up to two rows for every patch of the aperture, in the field's order.
+    /// Indices of up to two rows of emergent cells for every patch, in the order of the field of view.
     row: Vec<[Option<usize>; 2]>,
-    /// Transmittance, direction and, behind boxes, the luminances seen there, for every patch seen through regular
-    /// transmission; empty if there is none.
+    /// Transmittance, direction, and behind boxes the outside luminances seen in that direction with their shares, for
+    /// every patch if the system has regular transmission; else empty.
     through: Vec<(f64, Dir<World>, Counts)>,
 }
 
-/// Whether an aperture's diffuse light can be computed by [`EyeLight`].
+/// Whether the diffuse light of an aperture can be computed by [`EyeLight`].
 pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     let one = &scene.apertures[index];
     let Some(btdf) = one.transmission() else { return false };
@@ -65,16 +65,16 @@ pub(super) fn is_tabled(scene: &Scene, index: usize) -> bool {
     one.lamps.is_none() && (by_data || described(scene, index).is_some())
 }
 
-/// Returns the optical model of an aperture's system if it also computes light from the sky: it is more exact than the
-/// data.
+/// Returns the optical model of an aperture's system if it is also used for light from sky and ground, since it is more
+/// exact than the data; else `None`.
 fn described(scene: &Scene, index: usize) -> Option<&SystemModel> {
     let model = scene.apertures[index].system.model.as_ref();
     model.filter(|model| scene.beams && model.answers_for_the_sky())
 }
 
 impl EyeLight {
-    /// Creates the tables of one aperture. `eyes`: the observers, and what each sees of all apertures; `prepared`: the
-    /// obstructions outside; `year`: number of the year and its number of hours.
+    /// Creates the tables of one aperture. `eyes`: observers, and what each sees of all apertures; `prepared`:
+    /// obstructions outside; `year`: number that identifies the year, and number of its steps.
     pub fn new(
         session: &Session,
         (scene, index): (&Scene, usize),
@@ -166,7 +166,8 @@ impl EyeLight {
         Self { sky: Sky::Patches(sky), year, rows, width, eyes, clear }
     }
 
-    /// Returns the light of the outside in one hour of the year, on the columns of the rows.
+    /// Returns the light from outside in one step of the year, in the order of the columns of the table: illuminances
+    /// through incident cells \[lx\], then luminances of ground and skyline \[cd/m²\]; behind boxes luminances.
     pub fn light(&self, hour: usize, outside: &Outside, sun: Option<&Sun>) -> Vec<f64> {
         let find = || match &self.sky {
             Sky::Behind(prepared) => {
@@ -196,13 +197,14 @@ impl EyeLight {
         light
     }
 
-    /// Returns the luminances of the emergent cells, given [`Self::light`]. \[cd/m²\]
+    /// Returns the luminances of the emergent cells that observers see \[cd/m²\]. `light`: result of [`Self::light`].
     pub fn cells(&self, light: &[f64]) -> Vec<f64> {
         self.rows.chunks_exact(self.width.max(1)).map(|row| self.clear * dot(row, light)).collect()
     }
 
-    /// Adds the luminances that an observer sees to its patches of this aperture, given [`Self::light`] and
-    /// [`Self::cells`].
+    /// Adds the luminances of this aperture that an observer sees to those of its patches. `light`, `cells`: results of
+    /// [`Self::light`] and [`Self::cells`]; `luminance`: luminances of the observer's patches of this aperture.
+    /// \[cd/m²\]
     pub fn add(&self, eye: usize, light: &[f64], cells: &[f64], outside: &Outside, luminance: &mut [f64]) {
         let own = &self.eyes[eye];
         for (sum, row) in luminance.iter_mut().zip(&own.row) {

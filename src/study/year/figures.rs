@@ -1,4 +1,5 @@
-//! Annual figures: autonomy, provision, glare, lighting, each with the error that follows from the errors of the hours.
+//! Annual figures: daylight autonomy, provision, glare, lighting, solar energy, each with the error that follows from
+//! the errors of the hourly results.
 
 use super::Year;
 use crate::compute::year::autonomy::{Autonomy, Exposure};
@@ -10,44 +11,45 @@ use crate::compute::year::provision::Provision;
 use crate::compute::year::solar::{Transmitted, When};
 use crate::compute::year::{Light, Step};
 
-/// Figures of the requested steps.
+/// Annual figures of the requested steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figures {
-    /// Number of steps.
+    /// Number of requested steps.
     pub steps: usize,
-    /// Number of occupied steps.
+    /// Number of occupied steps among them.
     pub occupied: usize,
-    /// Number of steps with light from the sky.
+    /// Number of steps among them with light from the sky.
     pub lit: usize,
-    /// Daylight autonomy of the sensors.
+    /// Daylight autonomy at the sensors.
     pub autonomy: Autonomy,
-    /// Autonomy with blinds operated by the rule of IES LM-83-12; `None` if not requested.
+    /// Spatial daylight autonomy with blinds operated by the rule of IES LM-83-12; `None` if not requested.
     pub blinds: Option<Blinds>,
-    /// Direct sun on the sensors; `None` if nothing transmits it unscattered, or for less than a year.
+    /// Annual sunlight exposure: direct sun on the sensors; `None` if nothing transmits sunlight unscattered, or for
+    /// less than a year.
     pub exposure: Option<Exposure>,
-    /// Daylight provision of EN 17037; `None` for less than a year, or for its occupied hours alone.
+    /// Daylight provision by EN 17037; `None` for less than a year, or if only occupied hours were computed.
     pub provision: Option<Provision>,
-    /// Annual glare figures by DGPs, one entry per observer.
+    /// Annual glare figures by simplified DGP (DGPs), one entry per observer.
     pub glare: Vec<Glare>,
-    /// Annual glare figures by daylight glare probability, one entry per observer; empty if not requested.
+    /// Annual glare figures by daylight glare probability (DGP), one entry per observer; empty if not requested.
     pub probability: Vec<Probability>,
     /// Energy of the electric lighting; `None` without lighting in the scene.
     pub lighting: Option<Energy>,
-    /// Solar energy transmitted; `None` if not requested.
+    /// Solar energy transmitted through the apertures; `None` if not requested.
     pub solar: Option<SolarFigures>,
 }
 
 /// Solar energy transmitted through the apertures. \[kWh\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolarFigures {
-    /// Energy through all apertures together.
+    /// Solar energy through all apertures together. \[kWh\]
     pub energy: Transmitted,
-    /// Energy through each aperture, in the scene's order.
+    /// Solar energy through each aperture, in the scene's order. \[kWh\]
     pub apertures: Vec<f64>,
 }
 
-/// Returns the figures of a year, of the same year with all illuminances lower, and with all illuminances higher by
-/// their errors. The differences are the uncertainty of the figures.
+/// Returns the figures of a year as computed, of the same year with all illuminances lower by their errors, and with
+/// all illuminances higher. The differences are the uncertainty of the figures.
 pub fn figures(year: &Year) -> [Figures; 3] {
     let light = &year.light;
     let shifted = |sign: f64| -> Vec<f64> {
@@ -56,7 +58,7 @@ pub fn figures(year: &Year) -> [Figures; 3] {
     [of(year, &light.values, 0.0), of(year, &shifted(-1.0), -1.0), of(year, &shifted(1.0), 1.0)]
 }
 
-/// Returns the solar energy, with `sign` times the errors of its steps added.
+/// Returns the transmitted solar energy, with `sign` times the errors of the hourly powers added.
 fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
     let solar = year.solar.as_ref()?;
     let steps: Vec<When> = year
@@ -75,8 +77,8 @@ fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
     })
 }
 
-/// Returns the figures of the illuminances `values`. `sign`: factor of the errors that are added to solar power and
-/// glare.
+/// Returns the figures for the illuminances `values` of the year \[lx\]. `sign`: factor of the errors that are added to
+/// solar power and glare.
 fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let steps: Vec<Step> = year
@@ -110,8 +112,8 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     }
 }
 
-/// Returns the direct sun on the sensors. Systems that transmit none in the states in use, or in the open states, count
-/// as zero.
+/// Returns the exposure of the sensors to direct sun. Systems that transmit none in the states in use, or in the open
+/// states, count as zero.
 fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let in_use = year.light.sun.as_deref();
@@ -123,8 +125,8 @@ fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     Some(Exposure::of(steps, in_use?, retracted?, year.steps.length))
 }
 
-/// Returns the figures with blinds of LM-83, with `sign` times the errors of the light and of the direct sun that
-/// operates them.
+/// Returns the figures with blinds operated by LM-83, with `sign` times the errors of the illuminances and of the
+/// direct sun that operates them.
 fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
     let lm83 = year.lm83.as_ref()?;
     let own = lm83.values.iter().zip(&lm83.errors);
@@ -133,7 +135,8 @@ fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
     Some(Blinds::of(steps, light, &lm83.worked, year.steps.length, sign))
 }
 
-/// Returns the glare probabilities, one entry per observer; dark steps have no glare.
+/// Returns the annual figures of DGP, one entry per observer, with `sign` times its errors added. In dark steps DGP is
+/// 0.
 fn probability(year: &Year, sign: f64) -> Vec<Probability> {
     let Some(dgp) = &year.dgp else { return Vec::new() };
     let occupied = |row: &usize| year.steps.list[year.chosen[*row]].occupied;

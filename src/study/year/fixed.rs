@@ -1,11 +1,12 @@
-//! Scene of one step: fixed states, sky and sun of the hour.
+//! Scene file for one step of a year: states fixed, sky and sun of the step.
 
 use super::steps::Steps;
 use crate::study::control::year::Moving;
 use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, SunKeys, SystemKeys, TimeKey};
 use crate::study::year_keys::YearKeys;
 
-/// Returns the scene with the states of its moving apertures fixed, and without a year.
+/// Returns the scene with the states of its moving apertures fixed, and without a year. `states`: indices of the
+/// states, in the order of `moving`.
 pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> SceneFile {
     let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (one, &state) in moving.iter().zip(states) {
@@ -14,7 +15,7 @@ pub fn with_states(file: &SceneFile, moving: &[Moving], states: &[usize]) -> Sce
     scene
 }
 
-/// Sets the state of a system that has states.
+/// Sets the state of a system that has states, by its key.
 pub fn put_state(system: &mut SystemKeys, key: &str) {
     match system {
         SystemKeys::Catalogue { state, .. } | SystemKeys::File { state, .. } | SystemKeys::Family { state, .. } => {
@@ -24,12 +25,13 @@ pub fn put_state(system: &mut SystemKeys, key: &str) {
     }
 }
 
-/// Sets a placeholder sky with light: scenes prepared with it are evaluated under the sky of each hour later.
+/// Sets a sky with light that stands for those of the year: scenes that are prepared with it are evaluated under the
+/// sky of each step later.
 pub fn put_ordinary(scene: &mut SceneFile) {
     scene.sky = SkyKeys { cie_type: Some(16), diffuse_horizontal: Some(1e4), ..bare(scene, SkyModelKey::Cie) };
 }
 
-/// Returns the sky keys with skyline and obstruction alone; all others are reset.
+/// Returns the keys of a sky with only skyline and obstruction of the scene; all others are reset.
 fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
     SkyKeys {
         model,
@@ -48,8 +50,8 @@ fn bare(scene: &SceneFile, model: SkyModelKey) -> SkyKeys {
     }
 }
 
-/// Sets sky and ground of a step: as an hour of the weather if the step is a whole interval of it, else as [`put_at`]
-/// does.
+/// Sets sky and ground of the step `at`: as an hour of the weather file if the step is a whole interval of it, else
+/// like [`put_at`].
 pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys) {
     let index = |k: usize| steps.list.get(k).map(|step| step.hour.index);
     let parted = index(at + 1) == index(at) || at > 0 && index(at - 1) == index(at);
@@ -73,8 +75,8 @@ pub fn put_hour(scene: &mut SceneFile, steps: &Steps, at: usize, keys: &YearKeys
     }
 }
 
-/// Sets sky, sun and ground of a step as keys of a scene without a year: model, irradiances and the illuminances that
-/// they are scaled to.
+/// Sets sky, sun and ground of the step `at` by keys that do not need the weather file: model, irradiances and the
+/// illuminances to which they are scaled.
 pub fn put_at(scene: &mut SceneFile, steps: &Steps, at: usize) {
     let step = &steps.list[at];
     let hour = &step.hour;

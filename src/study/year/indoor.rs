@@ -1,10 +1,10 @@
-//! Readings of the room's sensors for controls that depend on the illuminance in the room (`open_below`): the room of
-//! the step, with the states that the control would take.
+//! Readings of the room's illuminance sensors in an annual simulation, for controls that depend on the illuminance in
+//! the room (`open_below`): the room in the step, with the states that the control would choose.
 //!
-//! A sensor is read for two states only: the one that the rule requires if the room is bright enough, and the one that
-//! it requires if not. If both are the same nothing is read, and the control's memory of the reading is reset. The
-//! reading in the first state decides; if it requires the second, that one is read as well. If the room is then bright
-//! enough, the control would oscillate: the step is hunting, and keeps the second state.
+//! Sensors are read for two combinations of states only: that which the rule demands if the room is bright enough, and
+//! that which it demands if not. If both are the same nothing is read, and the control's memory of the reading is
+//! reset. The reading in the first combination decides; if it demands the second, that one is read as well. If the room
+//! is then bright enough, the control would oscillate: the step is counted as hunting, and has the second combination.
 
 use super::light::{self, Engine, prepared};
 use crate::compute::control::controller::{Controller, Decision, Inputs};
@@ -13,18 +13,19 @@ use crate::study::control::year::Moving;
 use crate::study::error::StudyError;
 use std::collections::BTreeMap;
 
-/// Summary of the sensor readings by a year's controls. Steps are given by index.
+/// Summary of the sensor readings by the controls of a year. Steps are given by their indices.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Indoor {
     /// Number of steps at which sensors were read.
     pub read: usize,
-    /// Steps at which the control would oscillate.
+    /// Steps at which the control would oscillate between two states.
     pub hunting: Vec<usize>,
-    /// Steps at which the reading's error extends to another state.
+    /// Steps at which another state would follow within the error of the reading.
     pub unsure: Vec<usize>,
 }
 
-/// Returns the sensors of every moving aperture whose control reads the room; `None` for the others.
+/// Returns, for every moving aperture whose control reads the room, the indices of its sensors; `None` for the others.
+/// `count`: number of the scene's sensors.
 ///
 /// # Errors
 /// Returns an error if a sensor does not exist in the scene.
@@ -46,11 +47,11 @@ pub(super) fn sensors(moving: &[Moving], count: usize) -> Result<Vec<Option<Vec<
         .collect()
 }
 
-/// Reader of sensors in given states of the moving apertures.
+/// Reader of the room's sensors for given states of the moving apertures.
 pub(super) struct Reader<'a> {
     question: light::Question<'a>,
     sensors: Vec<Option<Vec<usize>>>,
-    /// Indices of the sensors that any control reads, ascending.
+    /// Indices of all sensors that any control reads, ascending.
     asked: Vec<usize>,
     engines: BTreeMap<Vec<usize>, Engine>,
     /// Summary of the readings so far.
@@ -58,7 +59,8 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Creates a reader; `None` if no control reads the room. `question` must be without observers.
+    /// Creates a reader; `None` if no control reads the room. `question`: input of the annual simulation, without
+    /// observers; `sensors`: indices of the sensors of each moving aperture.
     pub fn new(question: light::Question<'a>, sensors: Vec<Option<Vec<usize>>>) -> Option<Self> {
         let mut asked: Vec<usize> = sensors.iter().flatten().flatten().copied().collect();
         asked.sort_unstable();
@@ -67,7 +69,8 @@ impl<'a> Reader<'a> {
         (!asked.is_empty()).then(|| Self { question, sensors, asked, engines: BTreeMap::new(), found })
     }
 
-    /// Steps the controllers through step `k`, which has light, at `time` \[s\].
+    /// Steps the controllers through the step `k`, which has light, with readings of the room's sensors, and returns
+    /// their decisions. `time`: time for hysteresis and dwell time. \[s\]
     ///
     /// # Errors
     /// Returns an error if the room with the states is wrong, or if cancelled.
@@ -120,7 +123,8 @@ impl<'a> Reader<'a> {
         Ok(taken.1)
     }
 
-    /// Returns the mean reading of every moving aperture's sensors; 0 for those that read none. \[lx\]
+    /// Returns the mean illuminance of every moving aperture's sensors with the states `set` in the step `k`; 0 for
+    /// apertures whose control reads none. \[lx\]
     fn read(&mut self, set: &[usize], k: usize, progress: &dyn Progress) -> Result<Vec<Estimate>, StudyError> {
         if progress.cancelled() {
             return Err(Cancelled.into());

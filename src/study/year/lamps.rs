@@ -1,26 +1,27 @@
-//! Electric lighting over a sunny day, and by month. Lighting power of a day: IEA SHC Task 31 report (2005), figure 18.
+//! Electric lighting over a sunny day, and by month. The picture of a day's lighting power follows IEA SHC Task 31
+//! report (2005), figure 18.
 
 use super::{Annual, Year};
 use crate::drawing::plot::{Axis, Form, Guide, Plot, Series, Unit};
 use crate::texts::{fixed, words::MONTHS, year as say};
 use jiff::civil::Date;
 
-/// Power of the electric lighting over a day.
+/// Power of the electric lighting over one day of the year.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Day {
-    /// Date of the day, in the row's own year.
+    /// Date of the day, in the year of the weather record.
     pub date: Date,
     /// Direct normal irradiation of the day. \[Wh/m²\]
     pub direct: f64,
-    /// Begin and end of every step, in hours of local standard time. \[h\]
+    /// Begin and end of every step, as local standard time in hours from midnight. \[h\]
     pub spans: Vec<[f64; 2]>,
-    /// Power in every step. \[W/m²\]
+    /// Power of the electric lighting in every step. \[W/m²\]
     pub watts: Vec<f64>,
-    /// Minimum and maximum power in every step, with all light higher and lower by its error. \[W/m²\]
+    /// Smallest and largest power in every step within the error of the illuminances. \[W/m²\]
     pub between: Vec<[f64; 2]>,
 }
 
-/// Returns the occupied day of a month (1 … 12) with the highest direct normal irradiation, of those that were
+/// Returns the occupied day of a month (1 … 12) with the highest direct normal irradiation, among those that were
 /// computed; `None` if there is none.
 pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
     let mut best: Option<(f64, Date)> = None;
@@ -40,7 +41,8 @@ pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
     best.map(|(_, date)| date)
 }
 
-/// Returns the electric lighting over a day; `None` without lighting, or if the day was not computed.
+/// Returns the power of the electric lighting over a day; `None` if the scene has no lighting, or the day was not
+/// computed.
 pub fn day(year: &Year, date: Date) -> Option<Day> {
     let lamps = year.settings.lamps.as_ref()?;
     let (sensors, places) = (year.settings.sensors, year.light.places);
@@ -70,21 +72,22 @@ pub fn day(year: &Year, date: Date) -> Option<Day> {
     (!day.spans.is_empty()).then_some(day)
 }
 
-/// Returns the energy by month and its estimated absolute error \[kWh/m²\]; `None` without lighting.
+/// Returns the lighting energy of each month, with its estimated absolute error \[kWh/m²\]; `None` if the scene has no
+/// lighting.
 pub fn months(annual: &Annual) -> Option<[(f64, f64); 12]> {
     let [own, less, more] = annual.figures.each_ref().map(|one| one.lighting.as_ref().map(|energy| energy.months));
     let (own, less, more) = (own?, less?, more?);
     Some(std::array::from_fn(|k| (own[k], (less[k] - own[k]).abs().max((more[k] - own[k]).abs()))))
 }
 
-/// Formats date and direct normal irradiation of a day: `17 Mar, 7.3 kWh/m² direct normal`.
+/// Formats date and direct normal irradiation of a day, such as `17 Mar, 7.3 kWh/m² direct normal`.
 pub fn day_words(day: &Day) -> String {
     let month = MONTHS[usize::from(day.date.month().unsigned_abs()) - 1];
     say::sunny_day(day.date.day(), month, fixed(day.direct / 1000.0, 1))
 }
 
-/// Returns the plot of the power over the hours of a day, one level for each step, with its uncertainty. `installed`:
-/// installed power. \[W/m²\]
+/// Returns the plot of lighting power against the hours of a day, one level for each step, with its uncertainty.
+/// `installed`: installed power. \[W/m²\]
 pub fn day_plot(day: &Day, installed: f64) -> Plot {
     let (mut points, mut band) = (Vec::new(), Vec::new());
     for ((span, watts), between) in day.spans.iter().zip(&day.watts).zip(&day.between) {

@@ -1,7 +1,7 @@
-//! Illuminances of the steps of a year.
+//! Illuminances in the steps of a year.
 //!
-//! Steps are grouped by the states of the moving apertures, and the response of the room to light is computed once for
-//! each group: coefficients for sky and sun.
+//! Steps are grouped by the states of the moving apertures, and the daylight coefficients of the room are computed once
+//! for each group.
 
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, with_states};
@@ -24,25 +24,26 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Illuminances of the chosen steps: rows of steps, columns of places, sensors first, then observers. \[lx\]
+/// Illuminances in the chosen steps: rows of steps, columns of places, first the sensors, then the observers. \[lx\]
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
-    /// Number of sensors and observers.
+    /// Number of places: sensors and observers together.
     pub places: usize,
-    /// Illuminances by all light. \[lx\]
+    /// Total illuminances, direct and interreflected. \[lx\]
     pub values: Vec<f64>,
     /// Estimated absolute errors of `values`. \[lx\]
     pub errors: Vec<f64>,
-    /// Illuminances by sun that comes through unscattered and unreflected, a part of `values`; `None` if nothing
-    /// transmits it, or it is not requested. \[lx\]
+    /// Illuminances by sunlight that arrives unscattered and unreflected, which are part of `values`; `None` if nothing
+    /// transmits it, or if not requested. \[lx\]
     pub sun: Option<Vec<f64>>,
-    /// Number of different sets of states that occur with light.
+    /// Number of different combinations of states that occur in steps with light.
     pub sets: usize,
-    /// Number of steps that are not computed: without light, or unoccupied if only occupied steps are requested.
+    /// Number of chosen steps that are not computed, because they are dark, or unoccupied if only occupied steps are
+    /// requested.
     pub dark: usize,
 }
 
-/// Input of the illuminances of a year.
+/// Input for the illuminances of a year.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -78,7 +79,8 @@ impl Progress for Counted<'_> {
     }
 }
 
-/// Computes the illuminances of the chosen steps, given the states of all steps.
+/// Computes the illuminances in the chosen steps. `states`: states of the moving apertures in all steps; `chosen`:
+/// indices of the steps.
 ///
 /// # Errors
 /// Returns an error if the scene is wrong, or if cancelled.
@@ -125,9 +127,9 @@ pub(super) fn light(
     Ok(light)
 }
 
-/// Computes the illuminance by direct sun alone at the places in all steps, with every moving aperture in the open
+/// Computes the illuminance by direct sun alone at all places in all steps, with every moving aperture in the open
 /// state of its control: rows of steps, columns of places. Returns `None` if nothing moves, nothing transmits direct
-/// sun, or it is not requested. \[lx\]
+/// sun, or if not requested. \[lx\]
 ///
 /// # Errors
 /// Returns an error if the scene is wrong, or if cancelled.
@@ -153,7 +155,8 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     Ok(Some(rows.concat()))
 }
 
-/// Returns the scene with a set of states, observers appended to its sensors, under a placeholder sky with light.
+/// Returns the scene with the moving apertures in one combination of states, with the observers appended to its
+/// sensors, under a sky that stands for those of the year.
 pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, StudyError> {
     let mut file = with_states(question.file, question.moving, set);
     put_ordinary(&mut file);
@@ -164,9 +167,9 @@ pub(super) fn prepared(question: &Question<'_>, set: &[usize]) -> Result<Scene, 
     Ok(scene)
 }
 
-/// Illuminances of one step.
+/// Illuminances in one step.
 pub(super) struct Found {
-    /// Illuminance by all light at the places. \[lx\]
+    /// Total illuminances at the places, sensors first, then observers. \[lx\]
     pub light: Vec<Estimate>,
     /// Illuminance by direct sun alone, if it is requested and transmitted. \[lx\]
     pub sun: Option<Vec<f64>>,
@@ -175,15 +178,15 @@ pub(super) struct Found {
 /// Index of a step of the year, with its outside and sun.
 type Hour = (usize, (Outside, Option<Sun>));
 
-/// Illuminances for any sky and sun, with one set of states.
+/// Computation of illuminances under any sky and sun, with the moving apertures in one combination of states.
 pub(super) struct Engine {
     coefficients: Coefficients,
-    /// Direct sun alone, if it is requested and transmitted.
+    /// Illuminances by direct sun alone; `None` if not requested, or if nothing transmits it.
     sun: Option<DirectSun>,
 }
 
 impl Engine {
-    /// Creates the engine of a scene with fixed states. `steps`: expected number of steps, 0 if not known.
+    /// Creates the computation for a scene with fixed states. `steps`: expected number of steps, 0 if not known.
     pub fn new(
         question: &Question<'_>,
         scene: Scene,
@@ -213,7 +216,7 @@ impl Engine {
         Ok(Self { coefficients, sun })
     }
 
-    /// Computes one step of the year.
+    /// Computes the illuminances in one step of the year. `hour`: index of the step; `outside`: outside and sun.
     pub fn at(&self, hour: usize, outside: (Outside, Option<Sun>)) -> Found {
         self.all(&[(hour, outside)]).swap_remove(0)
     }
@@ -243,7 +246,7 @@ impl Engine {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// Computes several steps of the year.
+    /// Computes the illuminances in several steps of the year together.
     fn all(&self, hours: &[Hour]) -> Vec<Found> {
         let direct = |sun: Option<&Sun>| {
             self.sun.as_ref().map(|all| sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(sun)))

@@ -1,13 +1,14 @@
-//! Illuminances with blinds operated by the rule of IES LM-83-12 instead of the scene's controls, for
+//! Illuminances with blinds operated by the rule of IES LM-83-12 instead of the scene's controls, for the metric
 //! `sDA300_50_LM83_12`.
 //!
-//! Groups are apertures of the same surface with the same product under the same control. Open is the state that the
-//! control takes by day without direct sun, which is the most open unless `open_state` names another; closed is the one
-//! for DIN 5034, the most closed or `closed_state`. Where nothing moves, an ideally diffusing shade with a
-//! transmittance of 5 % replaces the system while it is closed: what tools assume by § 2.2.7 for blinds that are not
-//! described. Its reflectance is `reflectance`, and zero if that is to come from the dataset.
+//! A group consists of apertures in the same surface with the same product under the same control. Its open state is
+//! the one that the control chooses by day without direct sun, the most open unless `open_state` names another; its
+//! closed state is that for DIN 5034, the most closed or `closed_state`. Where nothing moves, an ideally diffusing
+//! shade with a transmittance of 5 % replaces the system while it is closed, which is what other programs assume by §
+//! 2.2.7 for blinds that are not described. Its reflectance is `reflectance`, and zero if that is to come from the
+//! dataset.
 //!
-//! Only those occupied lit steps are computed that the year does not contain in exactly the same states.
+//! Only those occupied lit steps are computed that the year does not already contain with exactly the same states.
 
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, put_state};
@@ -30,34 +31,34 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Transmittance of the shade that replaces a system without movable parts. \[–\]
+/// Transmittance of the shade that closes in place of a system without movable parts, 0 … 1.
 pub const SHADE: f64 = 0.05;
 
-/// Apertures that are closed together.
+/// Group of apertures whose blinds are closed together.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Group {
-    /// Numbers of the apertures, from 1.
+    /// Numbers of the apertures in the scene, from 1.
     pub apertures: Vec<usize>,
-    /// Keys of the open and the closed state; `None` if nothing moves and the shade is used.
+    /// Keys of the open and the closed state; `None` if nothing moves, so that the shade is used.
     pub states: Option<[String; 2]>,
-    /// Indices and keys of the open and the closed state of a controlled aperture, even if both are the same.
+    /// Index and key of the open and of the closed state of a controlled aperture, even if both are the same.
     controlled: Option<[(usize, String); 2]>,
 }
 
-/// The chosen steps with blinds operated by the rule.
+/// Illuminances in the chosen steps with blinds operated by the rule of LM-83.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Lm83 {
     /// Groups of apertures that close together.
     pub groups: Vec<Group>,
-    /// States of the groups, by chosen step; groups stay open in unoccupied and in dark steps.
+    /// Groups that are closed in each chosen step; all are open in unoccupied and in dark steps.
     pub worked: Vec<Worked>,
-    /// Illuminances of the chosen steps at the sensors, without observers; 0 in unoccupied steps. \[lx\]
+    /// Illuminances at the sensors (not the observers) in the chosen steps; 0 in unoccupied steps. \[lx\]
     pub values: Vec<f64>,
     /// Estimated absolute errors of `values`. \[lx\]
     pub errors: Vec<f64>,
 }
 
-/// Input of the LM-83 blinds.
+/// Input for operating blinds by the rule of LM-83.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -68,11 +69,11 @@ pub(super) struct Question<'a> {
     pub moving: &'a [Moving],
     pub states: &'a [Vec<usize>],
     pub chosen: &'a [usize],
-    /// Light of the chosen steps with the states of the scene's controls.
+    /// Illuminances in the chosen steps with the states of the scene's controls.
     pub light: &'a Light,
 }
 
-/// Operates the blinds through the chosen steps, and computes the illuminances.
+/// Operates the blinds through the chosen steps by the rule of LM-83, and computes the illuminances with them.
 ///
 /// # Errors
 /// Returns an error if the scene is wrong, or if cancelled.
@@ -138,7 +139,7 @@ pub(super) fn lm83(
     Ok(Lm83 { groups, worked: all, values, errors })
 }
 
-/// Adds notes on assumptions of the standard that the scene does not share.
+/// Adds notes on assumptions of the standard that the scene does not meet.
 fn add_notes(file: &SceneFile, settings: &Settings, groups: &[Group], notes: &mut Vec<String>) {
     if settings.keys.hours != (HoursKeys { from: 8.0, to: 18.0, days: DaysKey::All }) {
         notes.push("LM-83-12 counts 8 to 18 h of all days: here the hours of year.hours are counted".to_owned());
@@ -159,6 +160,7 @@ fn numbers(list: &[usize]) -> String {
     list.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
 }
 
+/// Returns the groups of apertures that close together, with their open and closed states.
 fn groups(question: &Question<'_>) -> Result<Vec<Group>, StudyError> {
     let mut list: Vec<Group> = Vec::new();
     for (index, aperture) in question.file.aperture.iter().enumerate() {
@@ -184,7 +186,7 @@ fn groups(question: &Question<'_>) -> Result<Vec<Group>, StudyError> {
     Ok(list)
 }
 
-/// Returns the scene with its groups open or closed, as a scene without a year.
+/// Returns the scene with its groups open or closed, and without a year.
 fn with_groups(file: &SceneFile, groups: &[Group], closed: &[bool]) -> SceneFile {
     let mut scene = SceneFile { year: None, rank: None, ..file.clone() };
     for (group, &closed) in groups.iter().zip(closed) {
@@ -200,7 +202,7 @@ fn with_groups(file: &SceneFile, groups: &[Group], closed: &[bool]) -> SceneFile
     scene
 }
 
-/// Whether the year contains this step in exactly the same states.
+/// Whether the year already contains a step with exactly these states.
 fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usize) -> bool {
     groups.iter().zip(closed).all(|(group, &closed)| {
         if closed && group.states.is_none() {
@@ -214,7 +216,7 @@ fn is_held(question: &Question<'_>, groups: &[Group], closed: &[bool], step: usi
     })
 }
 
-/// Scenes with all groups open and with all closed, for direct sun at the sensors.
+/// Scenes with all groups open and with all groups closed, for the direct sun at the sensors.
 struct Suns<'a> {
     groups: &'a [Group],
     scenes: [DirectSun; 2],
@@ -231,7 +233,7 @@ impl<'a> Suns<'a> {
         Ok(Self { groups, scenes: [scene(false)?, scene(true)?] })
     }
 
-    /// Returns the direct sun through every group at all sensors. \[lx\]
+    /// Returns the illuminance by direct sun through every group at all sensors, open and closed. \[lx\]
     fn at(&self, sun: &Sun) -> Vec<GroupSun> {
         let [open, closed] = self.scenes.each_ref().map(|scene| scene.by_aperture(sun));
         let sum = |apertures: &[usize], list: &[Vec<Estimate>]| {

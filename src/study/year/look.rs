@@ -1,12 +1,12 @@
-//! View of a year: page and quantity that a map of hours displays.
+//! Settings with which a year is displayed: page, and quantity of the map of hours.
 
 use serde::{Deserialize, Serialize};
 
-/// Quantity of a map of hours. Sensors, observers and moving apertures are counted from 0.
+/// Quantity that a map of hours displays. Sensors, observers and moving apertures are given by index, from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Shows {
-    /// Mean illuminance of the sensors.
+    /// Mean illuminance of all sensors.
     #[default]
     Mean,
     /// Illuminance of one sensor.
@@ -23,29 +23,29 @@ pub enum Shows {
     DiffuseHorizontal,
 }
 
-/// Displayed part of a year.
+/// Page of a year that is displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Page {
-    /// Hours of the year.
+    /// Map of the hours of the year.
     #[default]
     Map,
-    /// Figures with their errors.
+    /// Annual figures with their errors.
     Figures,
     /// Power of the electric lighting over a day and by month.
     Lighting,
 }
 
-/// View of a year.
+/// Settings with which a year is displayed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Look {
     /// Displayed page.
     pub page: Page,
-    /// Quantity of the map.
+    /// Quantity that the map of hours displays.
     pub shows: Shows,
-    /// Whether illuminances have a logarithmic scale.
+    /// Whether the colour scale of illuminances is logarithmic.
     pub log: bool,
-    /// Month whose sunniest day is displayed, 1 … 12; `None`: the scene's month.
+    /// Month whose sunniest day is displayed, 1 … 12; `None`: month of the scene's date.
     pub month: Option<u8>,
 }

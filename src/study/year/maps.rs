@@ -1,4 +1,4 @@
-//! The hours of a year, or of its weather, as a map.
+//! Results of a year, or data of a weather file, as a map of hours.
 
 use super::look::{Look, Shows};
 use super::steps::Step;
@@ -12,12 +12,12 @@ use crate::study::weather::moment;
 use crate::texts::year as say;
 use jiff::civil::DateTime;
 
-/// Minimum and maximum DGPs of the scale: no light, and intolerable glare.
+/// Smallest and largest simplified DGP (DGPs) of the colour scale: no light, and intolerable glare.
 const DGPS: [f64; 2] = [0.184, 0.6];
-/// Number of decades of a logarithmic scale.
+/// Number of decades of a logarithmic colour scale.
 const DECADES: i32 = 3;
 
-/// Returns the quantities that a map of a year can display.
+/// Returns the quantities that a map of this year can display.
 pub fn choices(year: &Year) -> Vec<Shows> {
     let mut list = vec![Shows::Mean];
     list.extend((0..year.moving.len()).map(Shows::State));
@@ -28,7 +28,7 @@ pub fn choices(year: &Year) -> Vec<Shows> {
     list
 }
 
-/// Returns the title of a map.
+/// Returns the translated title of a map of a quantity.
 pub fn title(shows: Shows) -> String {
     match shows {
         Shows::Mean => say::MEAN.into(),
@@ -41,7 +41,7 @@ pub fn title(shows: Shows) -> String {
     }
 }
 
-/// Returns the head of a map's column in CSV files; it does not change with the title.
+/// Returns the heading of the column with a map's values in CSV files; it does not change with the language.
 pub fn csv_column(shows: Shows) -> String {
     match shows {
         Shows::Mean => "Mean illuminance".to_owned(),
@@ -54,8 +54,8 @@ pub fn csv_column(shows: Shows) -> String {
     }
 }
 
-/// Returns the places of a device's states in ascending order of their values, and their keys in that order; in the
-/// device's order if the states have no values.
+/// Returns the position of each state of a device in the ascending order of their numbers, and the keys in that order;
+/// if states have no numbers, the order of the device is used.
 pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
     let mut order: Vec<usize> = (0..device.keys.len()).collect();
     if let Some(values) = &device.values {
@@ -68,8 +68,8 @@ pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
     (ranks, order.iter().map(|state| device.keys[*state].clone()).collect())
 }
 
-/// Returns the displayed value of a computed step. `row`: its index among the chosen ones; `ranks`: places of the
-/// displayed states.
+/// Returns the value of a quantity in a computed step, in the unit of the map. `k`: index of the step; `row`: its index
+/// among the chosen ones; `ranks`: positions of the states in their order.
 fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
     let Light { places, values, .. } = &year.light;
     let own = &values[row * places..(row + 1) * places];
@@ -90,8 +90,8 @@ fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f6
     }
 }
 
-/// Returns the estimated absolute error of a map's value; `None` if the value has no stated error. `step`: index in the
-/// year.
+/// Returns the estimated absolute error of a value in a map, in its unit; `None` if the value has no stated error.
+/// `step`: index of the step in the year.
 pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     let row = year.chosen.binary_search(&step).ok()?;
     let Light { places, errors, .. } = &year.light;
@@ -106,20 +106,21 @@ pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     }
 }
 
-/// Returns an interval of the map from its nominal middle, to whole minutes.
+/// Returns an interval of the map with a value, from the middle of the step, to whole minutes.
 fn interval(time: DateTime, value: f64) -> Interval {
     let minute = 60 * u16::from(time.hour().unsigned_abs()) + u16::from(time.minute().unsigned_abs());
     Interval { month: time.month().unsigned_abs(), day: time.day().unsigned_abs(), minute, value }
 }
 
-/// Returns the colour scale of a map's values.
+/// Returns the colour scale for the values of a map.
 fn scale(values: impl Iterator<Item = f64>, log: bool) -> ColourScale {
     let most = values.filter(|value| value.is_finite()).fold(0.0, f64::max);
     ColourScale::up_to(if most > 0.0 { most } else { 1.0 }, log, DECADES, ColourMap::Sequential)
 }
 
-/// Returns the map of a year's hours. Dark steps and steps that were not computed have no value; electric lighting has
-/// one at night too. If the year does not contain the quantity, the mean illuminance is displayed.
+/// Returns the map of a quantity over the hours of a year. Dark steps and steps that were not computed have no value;
+/// electric lighting has one at night too. If the year does not contain the quantity, the mean illuminance is
+/// displayed.
 pub fn map(year: &Year, look: &Look) -> HourMap {
     let shows = if choices(year).contains(&look.shows) { look.shows } else { Shows::Mean };
     let mut rows = vec![None; year.steps.list.len()];
@@ -150,8 +151,8 @@ pub fn map(year: &Year, look: &Look) -> HourMap {
     HourMap::of(title(shows), colours, 60.0 * year.steps.length, &list)
 }
 
-/// Returns the map of direct normal (`direct`) or diffuse horizontal light of a weather file in the file's unit, W/m²
-/// or lx. Intervals that are dark or lack the value have none.
+/// Returns the map of the direct normal (`direct`) or the diffuse horizontal component in a weather file, in the unit
+/// of the file, W/m² or lx. Intervals that are dark or lack the value have none.
 pub fn weather_map(weather: &Weather, reading: Reading, direct: bool) -> HourMap {
     let lux = weather.quantity == Quantity::NormalIlluminance;
     let mut hours = weather.hours(reading).ok();

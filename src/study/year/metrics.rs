@@ -1,4 +1,4 @@
-//! The annual metrics. Keys are stable, shares are 0 … 1.
+//! Table of the annual metrics. Their keys are stable, shares are 0 … 1.
 //!
 //! A new metric is one entry here; its value comes from the figures in `compute::year`. Its row in the table of
 //! figures, its key in JSON, its use as an objective and in accuracy series follow from the entry.
@@ -22,7 +22,8 @@ use crate::compute::year::provision::{self, LEVELS};
 use crate::compute::year::solar::Transmitted;
 use crate::texts::{Text, fixed, year as say};
 
-/// Approximate hours per year at full power of electric lighting without daylight: ten hours on 250 days. \[h\]
+/// Approximate number of hours per year at full power of electric lighting without daylight: ten hours on 250 days.
+/// \[h\]
 const FULL_HOURS: f64 = 2500.0;
 
 /// All annual metrics, in the order of the table of figures.
@@ -287,7 +288,7 @@ fn solar<'a>(from: &Source<'a>) -> Option<(&'a Solar, &'a SolarFigures)> {
     from.year.solar.as_ref().zip(from.figures.solar.as_ref())
 }
 
-/// Returns a value of the solar energy transmitted per square metre of all apertures.
+/// Returns a figure of the transmitted solar energy, which `of` selects, per area of all apertures. \[kWh/m²\]
 fn by_area(from: &Source<'_>, of: fn(&Transmitted) -> Quantity) -> Option<Quantity> {
     let (solar, figures) = solar(from)?;
     Some(of(&figures.energy.scaled(1.0 / solar.area())))
@@ -307,7 +308,7 @@ fn one_if(yes: bool) -> f64 {
     f64::from(u8::from(yes))
 }
 
-/// Returns the mean of a function of the illuminance over sensors and occupied steps.
+/// Returns the mean of a function of the illuminance \[lx\] over sensors and occupied steps.
 const fn occupied(of: fn(f64) -> f64) -> SumOver {
     SumOver::Sensors { occupied: true, of }
 }
@@ -324,7 +325,8 @@ fn minimum(level: usize) -> String {
     fixed(LEVELS[level].2, 0)
 }
 
-/// Returns whether a limit is met, or that the uncertainty does not decide it.
+/// Returns a text that says whether a requirement is met, or that the uncertainty does not decide it. `values`: value
+/// as computed, with less and with more light; `met`: whether a value meets the requirement.
 fn verdict(values: [f64; 3], met: impl Fn(f64) -> bool) -> Text {
     match values.map(met) {
         [true, true, true] => say::MET,
@@ -337,7 +339,8 @@ fn at_least(values: [f64; 3], least: f64) -> String {
     say::at_least(fixed(100.0 * least, 0), verdict(values, |value| value >= least))
 }
 
-/// Returns the level of glare protection of EN 17037.
+/// Returns the level of glare protection of EN 17037 as text. `values`: DGP exceeded in 5 % of the time, as computed,
+/// with less and with more light.
 fn glare_class(values: [f64; 3]) -> String {
     let words = [say::CLASS_HIGH, say::CLASS_MEDIUM, say::CLASS_MINIMUM, say::CLASS_NONE];
     let [own, less, more] = values.map(|value| LIMITS.iter().filter(|limit| value > **limit).count());

@@ -1,5 +1,5 @@
-//! Annual simulation of a room: every step of a weather file, the states that the controls choose, and the illuminance
-//! at every sensor and observer with the room in these states.
+//! Annual simulation of a room: for every step of a weather file, the states that the controls choose, and the
+//! illuminance at every sensor and observer with the apertures in these states.
 //!
 //! | file | what |
 //! | --- | --- |
@@ -26,8 +26,8 @@
 //! | `table` | figures of a year as rows with labels |
 //! | `lamps` | electric lighting over a day and by month |
 //!
-//! Sun positions are not grouped into bins: every step has its own, in the middle of the lit part of its interval.
-//! Nothing is computed for dark steps, and nothing for states that no step takes.
+//! Positions of the sun are not grouped into bins: every step has its own, in the middle of the lit part of its
+//! interval. Nothing is computed for dark steps, and nothing for states that occur in no step.
 
 mod annual;
 mod dgp;
@@ -80,52 +80,53 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// A year, or the requested part of it.
+/// Annual simulation: results of a year, or of the requested part of it.
 #[derive(Debug, Clone)]
 pub struct Year {
-    /// Checked input of the year.
+    /// Settings: checked keys of `[year]`.
     pub settings: Settings,
-    /// All steps of the weather.
+    /// All steps of the weather file.
     pub steps: Arc<Steps>,
     /// Apertures whose state a control chooses.
     pub moving: Vec<Moving>,
     /// Indices of the states, by step and moving aperture.
     pub states: Vec<Vec<usize>>,
-    /// State changes of each moving aperture over all steps.
+    /// Number of state changes of each moving aperture over all steps.
     pub movements: Vec<usize>,
-    /// Record of the sensor readings for controls that depend on the illuminance in the room; `None` without such a
+    /// Summary of the sensor readings for controls that depend on the illuminance in the room; `None` without such a
     /// control.
     pub indoor: Option<Indoor>,
     /// Indices of the requested steps, ascending.
     pub chosen: Vec<usize>,
-    /// Light of the chosen steps.
+    /// Illuminances in the chosen steps.
     pub light: Light,
     /// Illuminance by direct sun alone at sensors and observers, with every moving aperture in the open state of its
     /// control, over all steps of a whole year; `None` if nothing moves, nothing transmits direct sun, or it is not
     /// requested. \[lx\]
     pub retracted_sun: Option<Vec<f64>>,
-    /// Light of the chosen steps with blinds operated by the rule of IES LM-83-12; `None` if not requested.
+    /// Illuminances in the chosen steps with blinds operated by the rule of IES LM-83-12; `None` if not requested.
     pub lm83: Option<Lm83>,
-    /// Solar energy transmitted through the apertures; `None` if not requested.
+    /// Solar power and energy transmitted through the apertures; `None` if not requested.
     pub solar: Option<Solar>,
-    /// Daylight glare probability of the chosen steps; `None` without observers, or if not requested.
+    /// Daylight glare probability in the chosen steps; `None` without observers, or if not requested.
     pub dgp: Option<Dgp>,
     /// Notes for the user.
     pub notes: Vec<String>,
-    /// Duration of each stage, by name.
+    /// Computing time of each stage, by name.
     pub spent: Vec<(&'static str, Duration)>,
 }
 
-/// Checked input and weather of a year, independent of the systems in the apertures: read once, used for every product.
+/// Settings and weather of a year, which do not depend on the systems in the apertures: read once, used for every
+/// product.
 #[derive(Debug, Clone)]
 pub struct Climate {
-    /// Checked input of the year.
+    /// Settings: checked keys of `[year]`.
     pub settings: Settings,
-    /// All steps of the weather.
+    /// All steps of the weather file.
     pub steps: Arc<Steps>,
 }
 
-/// Reads the weather of a scene's year.
+/// Reads settings and weather of a scene's year. `base`: folder of the scene.
 ///
 /// # Errors
 /// Returns an error if the scene has no `[year]`, a key is wrong, or the weather file cannot be read.
@@ -135,7 +136,8 @@ pub fn climate(file: &SceneFile, base: &Path) -> Result<Climate, StudyError> {
     Ok(Climate { settings, steps })
 }
 
-/// Computes the steps for which `wanted` returns `true`.
+/// Computes the annual simulation of a scene, for the steps for which `wanted` returns `true`. `base`: folder of the
+/// scene.
 ///
 /// # Errors
 /// Returns the errors of [`climate`] and [`year_in`].
@@ -155,8 +157,8 @@ pub fn year(
     Ok(year)
 }
 
-/// Computes a year like [`year`], but stores its hours while they are computed, and reads those that an earlier run has
-/// stored.
+/// Computes an annual simulation like [`year`], but stores its hours while they are computed, and reads those that an
+/// earlier run has stored (`kept`).
 ///
 /// # Errors
 /// Returns the errors of [`year`], and an error if the partial file cannot be written.
@@ -178,7 +180,7 @@ pub fn year_kept(
     Ok(year)
 }
 
-/// Scene with the source of the systems in its apertures.
+/// Scene, with the source of the systems in its apertures.
 struct Systems<'a> {
     file: &'a SceneFile,
     base: &'a Path,
@@ -186,8 +188,9 @@ struct Systems<'a> {
     session: &'a Session,
 }
 
-/// Computes a year in a climate that has been read before. `file` may name other systems than the scene that the
-/// climate was read for; room, sensors, site and `[year]` must be the same.
+/// Computes an annual simulation with settings and weather that have been read before. `file` may name other systems
+/// than the scene for which they were read; room, sensors, site and `[year]` must be the same. `wanted`: steps to be
+/// computed.
 ///
 /// # Errors
 /// Returns an error for wrong systems or controls, if no step is wanted, or if cancelled.
@@ -203,6 +206,7 @@ pub fn year_in(
     computed(climate, &Systems { file, base, library, session }, wanted, None, progress)
 }
 
+/// Computes the annual simulation stage by stage: states, illuminances, LM-83 blinds, solar energy, glare.
 fn computed(
     climate: &Climate,
     &Systems { file, base, library, session }: &Systems<'_>,
@@ -286,8 +290,8 @@ fn computed(
     })
 }
 
-/// Returns the scene at a step of its year, with the state of every moving aperture fixed. Its illuminances, computed
-/// without a year, are those of the step.
+/// Returns the scene at a step of its annual simulation, with the state of every moving aperture fixed. Its
+/// illuminances, computed without a year, are those of the step. `time`: local standard time of the step.
 ///
 /// # Errors
 /// Returns the errors of [`year`], and an error if the weather does not contain the moment.

@@ -1,5 +1,5 @@
-//! Exposure to sunlight and view out of a scene's apertures by EN 17037. They follow from geometry and sun path alone:
-//! the states of the systems do not matter.
+//! Exposure to sunlight and view out of a scene's apertures by EN 17037. Both follow from geometry and the path of the
+//! sun alone, whatever the states of the systems.
 
 use super::settings::Settings;
 use super::steps::Steps;
@@ -17,31 +17,31 @@ use crate::study::scene_places::{apertures, room, sensors};
 use crate::study::year_keys::SunlightKeys;
 use glam::DVec3;
 
-/// Exposure to sunlight and view out of a scene.
+/// Exposure to sunlight and view out of a scene by EN 17037.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
-    /// Day of the exposure to sunlight.
+    /// Day for which the exposure to sunlight is evaluated.
     pub day: Day,
-    /// Minimum solar altitude that counts as sunlight. \[rad\]
+    /// Minimum solar altitude at which the sun counts. \[rad\]
     pub least_altitude: f64,
     /// Exposure to sunlight of each aperture.
     pub by_aperture: Vec<Exposure>,
-    /// Exposure to sunlight of the room: while any aperture has the sun.
+    /// Exposure to sunlight of the room: while the sun shines on any aperture.
     pub any: Exposure,
-    /// View out that three quarters of the sensors' places reach, observers at a height of 1.2 m.
+    /// View out that is reached at three quarters of the sensors' positions, for observers at a height of 1.2 m.
     pub view: ViewOut,
-    /// Number of places at which the view out was evaluated.
+    /// Number of positions at which the view out was evaluated.
     pub points: usize,
 }
 
-/// Aspects that are not evaluated, to be stated with the figures.
+/// Aspects of EN 17037 that are not evaluated, to be stated with the results.
 pub const NOT_JUDGED: [&str; 3] = [
     "the depth of the reveal: openings count as holes in a thin wall",
     "how clear the view is through the system, and what is seen: the scene knows boxes, a skyline and the horizon",
     "the least altitude of the sun and the day, which national annexes name: year.sunlight says them",
 ];
 
-/// Returns the day that the keys name, in the year of the weather's row of that day if there is one.
+/// Returns the day that the keys name, in the year of the weather record for that day if there is one.
 fn day(keys: &SunlightKeys, steps: &Steps) -> Result<Day, StudyError> {
     let wrong = || {
         StudyError::key(
@@ -60,7 +60,7 @@ fn day(keys: &SunlightKeys, steps: &Steps) -> Result<Day, StudyError> {
     Day::new(year, month, number).ok_or_else(wrong)
 }
 
-/// Evaluates exposure to sunlight and view out of a scene at the weather's place.
+/// Evaluates exposure to sunlight and view out of a scene at the location of the weather station.
 ///
 /// # Errors
 /// Returns an error if a key of room, apertures, boxes, sensors or `year.sunlight` is wrong.

@@ -1,9 +1,10 @@
-//! Hours of a long year stored beside its table while they are computed, so that an interrupted run can be resumed.
+//! Storage of a long annual simulation while it is computed, beside its table, so that an interrupted run can be
+//! resumed.
 //!
-//! A partial file `NAME.part` contains the fingerprint of all input of the hours, then a line for each hour with all
-//! bits of its numbers: a resumed year is identical to one of a single run. It is created only when the run takes
+//! A partial file `NAME.part` contains the hash of all input of the hours, then a line for each hour with all bits of
+//! its numbers, so that a resumed year is identical to one of a single run. It is created only when the run takes
 //! longer than [`STORE_DELAY`], and removed when the table is complete. A line that was incomplete when the run ended
-//! is written again. Results from the hours (glare, solar energy, figures) are not stored.
+//! is written again. Results that follow from the hours (glare, solar energy, figures) are not stored.
 
 use super::light::{Counted, Engine, Found, Light, Question, prepared};
 use crate::compute::estimate::Progress;
@@ -15,16 +16,16 @@ use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Duration of a run before it stores its hours; shorter runs create no partial file.
+/// Duration of a run after which its hours are stored; shorter runs create no partial file.
 pub const STORE_DELAY: Duration = Duration::from_secs(10);
-/// Duration of the computation between two writes; it sets the number of hours in a block.
+/// Duration of the computation between two writes, which determines the number of hours in a block.
 const BLOCK: Duration = Duration::from_secs(10);
 /// Number of hours in the first block, before their duration is known.
 const FIRST: usize = 64;
 /// First word of a partial file, with the version of its format.
 const HEAD: &str = "cfs-year-part-2";
 
-/// Illuminances of one hour.
+/// Illuminances of one hour, for storage in the partial file.
 #[derive(Debug, Clone, PartialEq)]
 struct Hour {
     values: Vec<f64>,
@@ -32,7 +33,7 @@ struct Hour {
     sun: Option<Vec<f64>>,
 }
 
-/// Stored hours of a year, and their partial file.
+/// Stored hours of an annual simulation, and their partial file.
 #[derive(Debug)]
 pub struct Kept {
     path: PathBuf,
@@ -66,6 +67,8 @@ impl Hour {
         text
     }
 
+    /// Reads the index of a step and its illuminances from a line of the partial file; `None` if the line is
+    /// incomplete.
     fn read(line: &str) -> Option<(usize, Self)> {
         let mut words = line.split(' ');
         let step = words.next()?.parse().ok()?;
@@ -87,8 +90,8 @@ impl Hour {
 }
 
 impl Kept {
-    /// Creates the store beside a table, and reads an existing partial file. `fingerprint`: of all input of the hours;
-    /// `delay`: see [`STORE_DELAY`]. `may_overwrite`: whether a file of another input may be overwritten.
+    /// Creates the store beside a table, and reads an existing partial file. `fingerprint`: hash of all input of the
+    /// hours; `delay`: see [`STORE_DELAY`]; `may_overwrite`: whether a file of another input may be overwritten.
     ///
     /// # Errors
     /// Returns an error if the partial file is of another scene, weather or program, or if another run is writing it.
@@ -111,7 +114,7 @@ impl Kept {
         Ok(kept)
     }
 
-    /// Reads the existing file; new hours follow its last complete line.
+    /// Reads the existing partial file; new hours will follow its last complete line.
     fn take_up(&mut self, may_overwrite: bool) -> Result<(), StudyError> {
         let cannot =
             |error: std::io::Error| wrong(&self.path, format!("cannot be read ({error}); check path and rights"));
@@ -184,7 +187,7 @@ impl Kept {
         Ok(())
     }
 
-    /// Removes the partial file: the table is complete, or will never be.
+    /// Removes the partial file, because the table is complete or will not be written.
     ///
     /// # Errors
     /// Returns an error if the file cannot be removed.
@@ -208,8 +211,8 @@ fn locked(file: &File, path: &Path) -> Result<(), StudyError> {
     }
 }
 
-/// Computes the illuminances of all hours like [`super::light::light`], but reads finished hours from the file and appends new
-/// ones to it.
+/// Computes the illuminances of all hours like [`super::light::light`], but reads finished hours from the partial file
+/// and appends new ones to it.
 pub(super) fn light(
     question: &Question<'_>,
     states: &[Vec<usize>],

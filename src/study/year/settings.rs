@@ -1,4 +1,4 @@
-//! Checks of `[year]`: ranges, and consistency with the rest of the scene.
+//! Checks of the keys `[year]`: ranges, and consistency with the rest of the scene.
 
 use crate::compute::room::direct::Sensor;
 use crate::compute::year::lighting::{Control, Lamps, Zone};
@@ -7,22 +7,22 @@ use crate::study::scene_file::{ApertureKeys, SceneFile, SystemKeys};
 use crate::study::year_keys::{LampControlKey, LightingKeys, YearKeys};
 use glam::DVec3;
 
-/// Checked input of a year.
+/// Settings of an annual simulation: checked keys of `[year]` with what follows from them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Keys of `[year]` as in the scene file.
     pub keys: YearKeys,
     /// Area of the floor. \[m²\]
     pub floor: f64,
-    /// Number of the scene's sensors, without eyes.
+    /// Number of the scene's sensors, without observers.
     pub sensors: usize,
-    /// Observers, as sensors.
+    /// Observers as sensors: position of the eye, with the view direction as normal.
     pub eyes: Vec<Sensor>,
     /// Electric lighting; `None` without `year.lighting`.
     pub lamps: Option<Lamps>,
-    /// Whether the light in unoccupied hours is needed; if not, those hours are left out.
+    /// Whether the illuminances in unoccupied hours are needed; if not, those hours are left out.
     pub unoccupied: bool,
-    /// Whether direct sun alone is needed at the sensors.
+    /// Whether the illuminances by direct sun alone are needed at the sensors.
     pub direct_sun: bool,
 }
 
@@ -37,7 +37,7 @@ fn within(key: &str, value: f64, min: f64, max: f64, unit: &str) -> Result<f64, 
     }
 }
 
-/// Checks `[year]` of a scene.
+/// Checks the keys `[year]` of a scene, and returns the settings of its annual simulation.
 ///
 /// # Errors
 /// Returns an error if there is no `[year]`, or a key is out of range.
@@ -93,6 +93,7 @@ pub fn settings(file: &SceneFile) -> Result<Settings, StudyError> {
     Ok(Settings { keys: keys.clone(), floor, sensors, eyes, lamps, unoccupied: true, direct_sun: true })
 }
 
+/// Checks the keys of the electric lighting, and returns it with its zones. `sensors`: number of the scene's sensors.
 fn lamps(keys: &LightingKeys, sensors: usize) -> Result<Lamps, StudyError> {
     let power = within("lighting.power", keys.power, 0.0, 1000.0, " W/m²")?;
     let target = within("lighting.target", keys.target, 1.0, 1e5, " lx")?;

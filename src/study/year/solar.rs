@@ -1,10 +1,10 @@
 //! Solar energy transmitted through the apertures, step by step: irradiances of sky, ground and sun by direction, times
-//! the solar transmittance of the system that each aperture has at the time.
+//! the solar transmittance of the system in each aperture in its state.
 //!
-//! The sky has the shape that it has for light and the diffuse irradiance of the hour, the sun its direct normal
-//! irradiance; the ground reflects as for light (`site.ground_reflectance`, `year.ground`), skyline and boxes obstruct
-//! solar radiation as they do light. Where a system has no solar properties its visible ones are used, and the result
-//! says so. Radiation that is absorbed and given off to the room as heat is left out.
+//! The sky has the same relative distribution as for light, scaled to the diffuse irradiance of the hour; the sun has
+//! its direct normal irradiance. The ground reflects as for light (`site.ground_reflectance`, `year.ground`), skyline
+//! and boxes obstruct solar radiation as they do light. Where a system has no solar properties its visible ones are
+//! used, and the result says so. Radiation that is absorbed and given off to the room as heat is left out.
 
 use super::fixed::put_state;
 use super::steps::Steps;
@@ -32,38 +32,38 @@ use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 
-/// Number of steps that are computed before their sums are taken.
+/// Number of steps that are computed in parallel before their sums are taken.
 const AT_ONCE: usize = 512;
-/// Number of points per side of an aperture from which boxes are seen.
+/// Number of points per side of an aperture from which boxes outside are seen.
 const EYES: usize = 2;
-/// Number of points per side of an aperture for rays to the sun.
+/// Number of points per side of an aperture from which it is tested whether boxes shade the sun.
 const RAYS: usize = 16;
-/// Number of steps whose sky is also integrated exactly, for the error.
+/// Number of steps whose sky is also integrated exactly, to determine the error.
 const JUDGED: usize = 3;
-/// Safety factor on the error found in [`JUDGED`] steps, which is stated for all others.
+/// Safety factor on the error found in [`JUDGED`] steps, because it is stated for all other steps.
 const OTHER_SKIES: f64 = 2.0;
 
-/// Solar energy through one aperture over the chosen steps.
+/// Solar energy transmitted through one aperture over the chosen steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThroughAperture {
     /// Number of the aperture in the scene, from 1.
     pub number: usize,
     /// Area of the aperture. \[m²\]
     pub area: f64,
-    /// Source of the system's solar properties; of several states the poorest.
+    /// Source of the system's solar properties; if it has several states, the least reliable of them.
     pub source: SolarSource,
     /// Solar energy transmitted. \[kWh\]
     pub energy: Estimate,
 }
 
-/// Solar power transmitted through all apertures.
+/// Solar power and energy transmitted through the apertures over the chosen steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solar {
-    /// Power through all apertures, by chosen step. \[W\]
+    /// Power through all apertures together, by chosen step. \[W\]
     pub watts: Vec<f64>,
     /// Estimated absolute errors of `watts`. \[W\]
     pub errors: Vec<f64>,
-    /// Energies of the apertures, in the scene's order.
+    /// Energies through each aperture, in the scene's order.
     pub apertures: Vec<ThroughAperture>,
     /// Area of the floor. \[m²\]
     pub floor: f64,
@@ -75,7 +75,7 @@ impl Solar {
         self.apertures.iter().map(|one| one.area).sum()
     }
 
-    /// Returns the common source of all apertures' solar properties, or a mixture if they differ.
+    /// Returns the source of the solar properties that all apertures have in common, or that they differ.
     pub fn source(&self) -> SolarSource {
         let mut sources = self.apertures.iter().map(|one| one.source);
         let first = sources.next().unwrap_or(SolarSource::Visible);
@@ -83,7 +83,7 @@ impl Solar {
     }
 }
 
-/// Input of the solar energy.
+/// Input for the solar energy of a year.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -102,33 +102,35 @@ impl Question<'_> {
     }
 }
 
-/// Apertures that receive the same irradiance and have the same transmittances.
+/// Apertures that receive the same irradiance and have the same solar transmittances.
 struct Group {
     surface: Surface,
-    /// Indices of passages by state of the moving aperture; a single one if nothing moves.
+    /// Indices of the solar transmittances by state of the moving aperture, `None` for states that do not occur; a
+    /// single one if nothing moves.
     passages: Vec<Option<usize>>,
     moving: Option<usize>,
-    /// Indices of apertures, and their areas times the factor of frame and dirt. \[m²\]
+    /// Indices of the apertures, each with its area times the transmission factor of frame and dirt. \[m²\]
     members: Vec<(usize, f64)>,
-    /// Geometry of the first member; it is the only one if there are boxes outside.
+    /// Position and size of the first aperture; it is the only one if there are boxes outside.
     aperture: Aperture,
 }
 
-/// Transmitted power for any hour.
+/// Computation of the transmitted solar power in any step.
 struct Engine<'a> {
     question: &'a Question<'a>,
     orientation: Orientation,
-    /// Outside with boxes; `None` without any.
+    /// Obstructions outside, prepared for many skies; `None` if there are none.
     prepared: Option<Arc<Prepared>>,
     per_lux: f64,
     groups: Vec<Group>,
     passages: Vec<Passage>,
-    /// Received irradiances, by surface and basis.
+    /// Received irradiances through incident cells, by surface and basis.
     received: Vec<(Surface, Received)>,
     between: Between,
 }
 
-/// Computes the transmitted solar energy of the chosen steps.
+/// Computes the solar power and energy transmitted through the apertures in the chosen steps, and adds a note on it to
+/// `notes`.
 ///
 /// # Errors
 /// Returns an error if the scene or a system is wrong, or if cancelled.
@@ -183,7 +185,8 @@ pub(super) fn solar(
     Ok(Solar { watts, errors, apertures: list, floor: file.room.width * file.room.depth })
 }
 
-/// Returns the note on what the figures contain, and where visible properties are used instead of solar ones.
+/// Returns the note on what the solar energy contains, and for which apertures visible properties are used instead of
+/// solar ones.
 fn note(list: &[ThroughAperture]) -> String {
     let of = |source: SolarSource| -> Vec<String> {
         list.iter().filter(|one| one.source == source).map(|one| one.number.to_string()).collect()
@@ -202,6 +205,7 @@ fn note(list: &[ThroughAperture]) -> String {
 }
 
 impl<'a> Engine<'a> {
+    /// Groups the apertures, and prepares their solar transmittances and the obstructions.
     fn new(
         question: &'a Question<'a>,
         room: &BoxRoom,
@@ -279,13 +283,13 @@ impl<'a> Engine<'a> {
         Ok(Self { question, orientation, prepared, per_lux, groups, passages, received, between })
     }
 
-    /// Returns the index in `received` of the irradiances for a passage in an aperture of a surface.
+    /// Returns the index in `received` of the irradiances for a solar transmittance in a surface.
     fn received(&self, surface: Surface, passage: &Passage) -> usize {
         let same = |(own, known): &(Surface, Received)| *own == surface && *known.cells() == passage.cells;
         self.received.iter().position(same).expect("made for every passage of every group")
     }
 
-    /// Returns sky, ground, obstructions and sun of a step in W/m².
+    /// Returns outside and sun of a step in radiometric units, sky, ground and obstructions with radiances. \[W/m²\]
     fn outside(&self, step: usize) -> Result<(Outside, Option<Sun>), StudyError> {
         let (outside, sun) = self.question.steps.outside_in_watts(step, self.per_lux)?;
         match &self.prepared {
@@ -294,8 +298,8 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Returns points spread over an aperture on a regular grid, in world axes from the room's origin; none without
-    /// obstructions.
+    /// Returns points on a regular grid over an aperture, `a_side` along each side, in world axes from the room's
+    /// origin \[m\]; none without obstructions.
     fn points(&self, aperture: &Aperture, a_side: usize) -> Vec<DVec3> {
         if self.prepared.is_none() {
             return Vec::new();
@@ -309,7 +313,7 @@ impl<'a> Engine<'a> {
             .collect()
     }
 
-    /// Computes the power per area through every group. \[W/m²\]
+    /// Computes the transmitted solar power per area for every group, in one step. \[W/m²\]
     fn at(&self, step: usize) -> Result<Vec<Estimate>, StudyError> {
         let (outside, sun) = self.outside(step)?;
         // With boxes every aperture has a different outside.
@@ -332,7 +336,7 @@ impl<'a> Engine<'a> {
         Ok(list)
     }
 
-    /// Computes the power by direct sun per area of a group. \[W/m²\]
+    /// Computes the transmitted power of direct sunlight per area of a group. \[W/m²\]
     fn beam(&self, group: &Group, passage: &Passage, outside: &Outside, sun: Option<&Sun>) -> Estimate {
         let facing = Facing { outside, sun, orientation: self.orientation, surface: group.surface };
         let Some(d) = facing.sun_entering() else { return Estimate::default() };
@@ -343,7 +347,7 @@ impl<'a> Engine<'a> {
         Estimate::new(received * share * tau, received * error)
     }
 
-    /// Returns the share of an aperture that no box shades from the sun, and its uncertainty.
+    /// Returns the share of an aperture that no box shades from the sun, and the uncertainty of the share.
     fn sunlit(&self, group: &Group, outside: &Outside, sun: Option<&Sun>) -> (f64, f64) {
         let (Some(around), Some(sun)) = (outside.surroundings(), sun) else { return (1.0, 0.0) };
         let points = self.points(&group.aperture, RAYS);
@@ -357,7 +361,7 @@ impl<'a> Engine<'a> {
         (share, if share > 0.0 && share < 1.0 { 0.5 / RAYS as f64 } else { 0.0 })
     }
 
-    /// Finds the error of integrating by cells, in steps spread over the requested ones.
+    /// Determines the error of integrating diffuse radiation by cells, in steps spread over the requested ones.
     fn judge(&mut self) -> Result<(), StudyError> {
         let question = self.question;
         let bright = |step: &usize| question.steps.list[*step].hour.diffuse_horizontal_irradiance > 0.0;
@@ -396,7 +400,7 @@ impl<'a> Engine<'a> {
     }
 }
 
-/// Returns the error with the number of the aperture that led to it.
+/// Returns an error with the number of the aperture in which it occurred added to the key.
 fn in_aperture(index: usize, error: StudyError) -> StudyError {
     match error {
         StudyError::Key { key, message } => StudyError::Key { key: format!("aperture[{}].{key}", index + 1), message },

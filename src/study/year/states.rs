@@ -1,5 +1,5 @@
-//! States of every moving aperture in every step: the controls are stepped through the year with the weather's sun and
-//! sky.
+//! States of every moving aperture in every step of a year: the controls are stepped through it with sun and sky of the
+//! weather file.
 
 use super::indoor::{Indoor, Reader, sensors};
 use super::light;
@@ -23,7 +23,7 @@ use crate::study::system::SystemLibrary;
 use std::path::Path;
 use std::sync::Arc;
 
-/// States that the controls have chosen.
+/// States that the controls have chosen over a year.
 #[derive(Default)]
 pub(super) struct States {
     /// Apertures whose state a control chooses.
@@ -32,11 +32,11 @@ pub(super) struct States {
     pub list: Vec<Vec<usize>>,
     /// Number of state changes of each moving aperture.
     pub movements: Vec<usize>,
-    /// Summary of the sensor readings; `None` if no control reads the room.
+    /// Summary of the readings of the room's sensors; `None` if no control reads them.
     pub indoor: Option<Indoor>,
 }
 
-/// Input of the controls.
+/// Input for the controls of a year.
 pub(super) struct Question<'a> {
     pub file: &'a SceneFile,
     pub base: &'a Path,
@@ -46,7 +46,7 @@ pub(super) struct Question<'a> {
     pub steps: &'a Steps,
 }
 
-/// Whether the state of any aperture is left to a control.
+/// Whether any aperture of the scene leaves its state to a control.
 fn moves(file: &SceneFile) -> bool {
     let controlled = |state: &Option<String>| state.as_deref() == Some(CONTROLLED);
     file.aperture.iter().any(|aperture| match &aperture.system {
@@ -58,7 +58,7 @@ fn moves(file: &SceneFile) -> bool {
 }
 
 /// Steps the controls through all steps of a year, including dark ones, so that hysteresis and dwell time have their
-/// true length.
+/// true length, and returns the states. Adds notes for the user to `notes`.
 ///
 /// # Errors
 /// Returns an error if a control is not valid, or if cancelled.
@@ -137,7 +137,7 @@ pub(super) fn states(
     Ok(States { moving, list, movements, indoor })
 }
 
-/// Adds notes on readings that do not determine the state.
+/// Adds notes on steps at which the readings of the room's sensors do not determine the state.
 fn add_notes(indoor: Option<&Indoor>, notes: &mut Vec<String>) {
     let Some(Indoor { read, hunting, unsure }) = indoor else { return };
     if !hunting.is_empty() {

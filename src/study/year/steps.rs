@@ -1,4 +1,4 @@
-//! Intervals of a weather file as steps of a year: nominal time, sun, sky.
+//! Intervals of a weather file as steps of a year: nominal time, sun and sky of each.
 
 use super::settings::Settings;
 use crate::compute::sky::{Outside, Sun};
@@ -14,47 +14,47 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Number of the first weekday without work, counted from Monday = 0.
+/// Number of the first weekday that is not a working day, counted from Monday = 0.
 const SATURDAY: f64 = 5.0;
-/// Hours of a common year.
+/// Number of hours of a common year.
 const HOURS_OF_A_YEAR: f64 = 8760.0;
 
-/// One step of a year.
+/// Step of a year: an interval of the weather file, or a part of one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
-    /// Sun and outdoor light of the step.
+    /// Position of the sun, irradiances and illuminances outdoors.
     pub hour: Hour,
-    /// Nominal middle of the step in local standard time, in the row's own year; moved by the whole hours of
-    /// `sun_offset_minutes`.
+    /// Nominal middle of the step in local standard time, in the year of the weather record; shifted by the whole hours
+    /// of `sun_offset_minutes`.
     pub time: DateTime,
     /// Month of `time`, 1 … 12.
     pub month: u8,
-    /// Hour of the local clock, with daylight saving time where the site has it. \[h\]
+    /// Local time by the clock, with daylight saving time where the site has it, in hours from midnight. \[h\]
     pub clock: f64,
-    /// Whether the room is occupied.
+    /// Whether the room is occupied in the step.
     pub occupied: bool,
 }
 
-/// All steps of a weather file.
+/// All steps of a year, from a weather file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Steps {
-    /// Steps in the file's order.
+    /// Steps in the order of the file.
     pub list: Vec<Step>,
-    /// Length of a step. \[h\]
+    /// Length of each step. \[h\]
     pub length: f64,
-    /// Station of the weather.
+    /// Weather station of the file.
     pub station: Station,
-    /// Test of the weather file's clock; `None` if it cannot be tested.
+    /// Test of the file's clock by its irradiances; `None` if it cannot be tested.
     pub closure: Option<Closure>,
-    /// Time by which intervals were moved. \[min\]
+    /// Time by which intervals were shifted from those in the file. \[min\]
     pub offset: f64,
     /// Whether the steps cover a whole year.
     pub whole: bool,
     /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// Codes of those warnings that concern the weather file.
+    /// Codes of those warnings that concern the weather file itself.
     pub weather_warnings: Vec<&'static str>,
-    /// Sky keys of the scene: light, ground and skyline.
+    /// Keys `[sky]` of the scene, for ground and skyline.
     sky: SkyKeys,
     site: SiteKeys,
     ground: Vec<f64>,
@@ -64,7 +64,7 @@ pub struct Steps {
 /// Outside and sun of one step.
 type Sky = (Outside, Option<Sun>);
 
-/// Skies of the steps that have been computed: shared by all copies, ignored by comparisons of steps.
+/// Skies of the steps that were computed so far: shared by all copies of the steps, ignored when steps are compared.
 #[derive(Debug, Clone)]
 struct Found {
     number: u64,
@@ -85,7 +85,7 @@ impl PartialEq for Found {
     }
 }
 
-/// Reads the weather of a scene's year.
+/// Reads the weather file of a scene's year, and returns its steps. `base`: folder of the scene.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read, or a value of a daytime hour is missing.
@@ -147,8 +147,8 @@ fn step(hour: Hour, time: DateTime, clock: DateTime, working_day: bool, keys: &Y
 }
 
 impl Steps {
-    /// Returns the index of the step whose interval contains `time`: of the same year if there is one, else of any
-    /// year.
+    /// Returns the index of the step whose interval contains a local standard time: of the same year if there is one,
+    /// else of any year.
     pub fn at(&self, time: DateTime) -> Option<usize> {
         let half = (1800.0 * self.length).round() as i64;
         let holds = |step: &Step, moment: DateTime| {
@@ -164,13 +164,13 @@ impl Steps {
         })
     }
 
-    /// Returns the reflectance of the ground in a step.
+    /// Returns the reflectance of the ground in a step, 0 … 1.
     pub fn ground(&self, step: usize) -> f64 {
         let month = usize::from(self.list[step].month.clamp(1, 12)) - 1;
         self.ground.get(month).copied().unwrap_or(self.site.ground_reflectance)
     }
 
-    /// Returns outside and sun of a step under a uniform sky: for controls that do not depend on the illuminance of the
+    /// Returns outside and sun of a step under a uniform sky, for controls that do not depend on the illuminance of the
     /// façade.
     ///
     /// # Errors
@@ -180,7 +180,7 @@ impl Steps {
             .map_err(|SkyKeyError { key, message }| StudyError::key(key, message))
     }
 
-    /// Returns sky, ground and skyline of a step, and its sun.
+    /// Returns the outside of a step (sky, ground and skyline), and its sun.
     ///
     /// # Errors
     /// Returns an error if a key of sky or site is out of range.
@@ -194,13 +194,14 @@ impl Steps {
         Ok(self.found.skies[step].get_or_init(|| found).clone())
     }
 
-    /// Returns a number that only these steps and their copies have; it identifies what is stored of them elsewhere.
+    /// Returns a number that identifies these steps and their copies, by which results for them are stored elsewhere.
     pub fn number(&self) -> u64 {
         self.found.number
     }
 
-    /// Returns outside and sun of a step in W/m²: sky, ground and sun by the hour's irradiances, in the same shape as
-    /// for light. `per_lux`: factor for a fixed luminance of the skyline. \[W/lm\]
+    /// Returns outside and sun of a step in radiometric units: sky, ground and sun by the irradiances of the hour, with
+    /// the same relative distribution as for light. \[W/m²\] `per_lux`: factor by which a fixed luminance of the
+    /// skyline becomes a radiance. \[W/lm\]
     ///
     /// # Errors
     /// Returns the errors of [`Self::outside`].
@@ -226,7 +227,7 @@ impl Steps {
 }
 
 impl Settings {
-    /// Whether the light of a step is to be computed.
+    /// Whether the illuminances in a step are to be computed.
     pub(super) fn asks(&self, step: &Step) -> bool {
         step.hour.is_lit() && (self.unoccupied || step.occupied)
     }

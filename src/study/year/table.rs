@@ -1,4 +1,4 @@
-//! Figures of a year as rows with labels: value, error, and compliance with limits.
+//! Table of the annual figures with labels: value, error, and compliance with limits.
 
 use super::Annual;
 use super::maps::states;
@@ -6,29 +6,29 @@ use super::metric::{Entry, Quantity, Section, metrics};
 use crate::compute::estimate::Estimate;
 use crate::texts::{Text, fixed, year as say};
 
-/// One figure of the table.
+/// Annual figure, as a row of the table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
-    /// Section of the row.
+    /// Section of the table to which the row belongs.
     pub section: Section,
     /// Label of the figure.
     pub name: String,
     /// Definition of the figure in one sentence, with its source.
     pub tip: &'static str,
-    /// Value of the figure: shares 0 … 1, else in `unit`.
+    /// Value of the figure: a share 0 … 1, or a number in `unit`.
     pub value: f64,
-    /// Uncertainty of the value by the errors of the hours, in the same unit.
+    /// Uncertainty of the value by the errors of the hourly results, in the same unit.
     pub error: f64,
-    /// Minimum and maximum of the sensors, if the figure is their mean.
+    /// Smallest and largest value of the sensors, if the figure is their mean.
     pub between: Option<[f64; 2]>,
     /// Unit of the figure; `%` for shares.
     pub unit: &'static str,
-    /// Compliance with limits; empty without limits.
+    /// Text on compliance with limits; empty without limits.
     pub compliance: String,
 }
 
 impl Row {
-    /// Returns the row of a metric; `None` if the table leaves it out.
+    /// Returns the row for a metric of a year; `None` if the table leaves it out.
     fn of(entry: &Entry) -> Option<Self> {
         let (section, tip) = entry.metric.row?;
         let Estimate { value, error } = entry.estimate()?;
@@ -59,7 +59,7 @@ impl Row {
         }
     }
 
-    /// Formats value, error and unit: `80.6 ± 0.2 %`. Counted figures have no error.
+    /// Formats value, error and unit, such as `80.6 ± 0.2 %`. Counted figures have no error.
     pub fn value_words(&self) -> String {
         let value = self.written(self.value);
         let error = self.written(self.error);
@@ -68,20 +68,21 @@ impl Row {
         format!("{words} {}", self.unit).trim_end().to_owned()
     }
 
-    /// Formats minimum and maximum of the sensors.
+    /// Formats smallest and largest value of the sensors.
     pub fn between_words(&self) -> String {
         self.between.map_or_else(String::new, |ends| ends.map(|end| self.written(end)).join(" – "))
     }
 }
 
-/// Returns all figures of a year, section by section.
+/// Returns all annual figures as rows, section by section.
 pub fn table(annual: &Annual) -> Vec<Row> {
     let mut list: Vec<Row> = metrics(&annual.year, &annual.figures).iter().filter_map(Row::of).collect();
     list.extend(control(annual));
     list
 }
 
-/// Returns state changes, and hours with light in each state; they are counted, so without an error.
+/// Returns the rows on the operation of shading devices: number of state changes, and hours with light in each state.
+/// They are counted, so that they have no error.
 fn control(annual: &Annual) -> Vec<Row> {
     let year = &annual.year;
     let mut list = Vec::new();

@@ -1,4 +1,4 @@
-//! Solar transmittances of systems, each computed once.
+//! Solar transmittances of the systems in a scene's apertures, each computed once.
 
 use crate::catalogue::stated_error;
 use crate::compute::basis::RingBasis;
@@ -10,27 +10,27 @@ use crate::study::system::{Need, System, SystemLibrary};
 use std::path::Path;
 use std::sync::Arc;
 
-/// Solar transmittance of a system in one state.
+/// Solar transmittance of a system in one state, prepared for diffuse and direct radiation.
 pub(super) struct Passage {
-    /// Transmittance by direction.
+    /// Solar transmittance by incident direction.
     pub tau: DirectionalTransmittance,
-    /// Source of the transmittance.
+    /// Source of the solar properties.
     pub source: SolarSource,
-    /// Basis by which diffuse radiation is integrated.
+    /// Basis of incident directions by which diffuse radiation is integrated.
     pub cells: RingBasis,
-    /// Mean transmittance of each cell of the basis.
+    /// Mean transmittance of each cell of this basis.
     pub by_cell: Vec<f64>,
-    /// Errors of the integration by cells in a façade and in a roof, relative to the diffuse radiation.
+    /// Errors of integrating by cells, in a façade and in a roof, relative to the transmitted diffuse radiation.
     pub judged: [f64; 2],
 }
 
-/// Solar transmittance of a system, and the source of its solar properties.
+/// Solar transmittance of a system by incident direction, and the source of its solar properties.
 pub(super) struct Found {
     pub tau: DirectionalTransmittance,
     pub source: SolarSource,
 }
 
-/// Solar transmittances of the systems of a scene.
+/// Collection of the solar transmittances of a scene's systems.
 pub(super) struct DirectSolar<'a> {
     library: &'a dyn SystemLibrary,
     base: &'a Path,
@@ -39,11 +39,12 @@ pub(super) struct DirectSolar<'a> {
 }
 
 impl<'a> DirectSolar<'a> {
+    /// Creates an empty collection. `base`: folder to which file names of systems are relative.
     pub fn new(library: &'a dyn SystemLibrary, base: &'a Path) -> Self {
         Self { library, base, keys: Vec::new(), found: Vec::new() }
     }
 
-    /// Returns the index of a system's transmittance.
+    /// Returns the index of the solar transmittance of a system, which is computed if it is not in the collection yet.
     ///
     /// # Errors
     /// Returns an error if the library cannot load the system, or its data have no transmission.
@@ -57,11 +58,13 @@ impl<'a> DirectSolar<'a> {
         Ok(self.keys.len() - 1)
     }
 
-    /// Returns all transmittances.
+    /// Returns all solar transmittances of the collection.
     pub fn found(self) -> Vec<Found> {
         self.found
     }
 
+    /// Computes the solar transmittance of a system: by profile angle from its optical model if possible, else from its
+    /// data.
     fn transmittance(&self, keys: &SystemKeys) -> Result<Found, StudyError> {
         let system = self.library.load(keys, self.base, Need::Light { lit: false })?;
         if let Some(model) = &system.model {
@@ -89,7 +92,8 @@ fn of_data(system: &Arc<System>) -> Result<Found, StudyError> {
     Ok(Found { tau, source: dataset.solar_source() })
 }
 
-/// Prepares transmittances for multiplication by received irradiances.
+/// Prepares solar transmittances for multiplication by received irradiances. `between`: interpolation between
+/// directions of data.
 pub(super) fn ready(found: Vec<Found>, between: Between) -> Vec<Passage> {
     let of = |Found { tau, source }: Found| {
         let cells = tau.cells();

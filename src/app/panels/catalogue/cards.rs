@@ -1,4 +1,4 @@
-//! The products as a gallery: cards with the picture of each product's transmittance.
+//! The products of the catalogue as a gallery: cards, each with a picture of the product's transmittance.
 
 use super::{entry, names};
 use crate::app::command::Command;
@@ -9,16 +9,16 @@ use crate::app::theme;
 use crate::texts::{catalogue as text, fixed};
 use egui::{Color32, FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-/// Minimum width of a card. \[points\]
+/// Minimum width of a product's card. \[points\]
 const LEAST: f32 = 106.0;
-/// Gap between two cards. \[points\]
+/// Gap between two neighbouring cards. \[points\]
 const GAP: f32 = 4.0;
-/// Side of the picture. \[points\]
+/// Width and height of the picture on a card. \[points\]
 const PICTURE: f32 = 76.0;
-/// Height of a card: picture, two lines of a name, one of figures. \[points\]
+/// Height of a card \[points\]: the picture, two lines for the name, one line for the figures.
 const HEIGHT: f32 = PICTURE + 70.0;
 
-/// Draws the gallery, with `below` points left under it. Only visible cards are drawn.
+/// Draws the gallery, with a height of `below` \[points\] left free under it. Only visible cards are drawn.
 pub(super) fn show(ui: &mut Ui, state: &mut State, gallery: &mut Gallery, below: f32, commands: &mut Vec<Command>) {
     let found = state.found.clone();
     let entries = &found.entries;
@@ -55,6 +55,7 @@ pub(super) fn show(ui: &mut Ui, state: &mut State, gallery: &mut Gallery, below:
     ui.data_mut(|data| data.insert_temp(key, output.state.clamped_offset().y));
 }
 
+/// Draws one card: picture, name, figures, star and comparison button of a product.
 fn one(
     ui: &mut Ui,
     rect: Rect,

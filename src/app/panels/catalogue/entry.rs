@@ -1,5 +1,5 @@
-//! Parts shared by list and gallery for a product: its figures as text, its tooltip, its star and the sign of
-//! comparison.
+//! Parts of a product's entry that list and gallery share: its figures as text, its tooltip, its star (favourite) and
+//! its comparison button.
 
 use super::menu;
 use crate::app::command::Command;
@@ -16,7 +16,8 @@ pub(super) fn figure(value: Option<f64>) -> String {
     value.map_or_else(|| "–".to_owned(), |value| fixed(value, 2))
 }
 
-/// Returns the state that a row's figures belong to, as text; empty for a product with one state.
+/// Returns the state of the product that the figures of its entry belong to, as text; empty for a product with one
+/// state.
 fn figures_of(entry: &Entry) -> String {
     match entry.state() {
         _ if !entry.moves() => String::new(),
@@ -25,7 +26,9 @@ fn figures_of(entry: &Entry) -> String {
     }
 }
 
-/// Returns the line under a product's name, most important first: the end may be cut.
+/// Returns the line of figures under a product's name, the most important first, since the end may be cut: the figure
+/// that the list is ordered by, the transmittances at normal incidence and under uniform light, the number of states,
+/// source and kind.
 pub(super) fn figures(entry: &Entry, sort: Sort) -> String {
     let mut words = String::new();
     // What the list is ordered by is seen.
@@ -49,7 +52,7 @@ pub(super) fn figures(entry: &Entry, sort: Sort) -> String {
     words
 }
 
-/// Returns a product's tooltip: the whole name, and the meaning of its figures.
+/// Returns the tooltip of a product: its whole name, and what its figures mean.
 pub(super) fn tip(entry: &Entry) -> String {
     let mut words = entry.name.clone();
     if !entry.subscribed.is_empty() {
@@ -69,7 +72,8 @@ pub(super) fn tip(entry: &Entry) -> String {
     words
 }
 
-/// Adds name, tooltip and menu to an entry; a click selects its product.
+/// Adds tooltip, menu and accessible name to the entry of a product; a click selects the product. `place`: index of the
+/// entry in the results; `chosen`: whether the product is selected; `picture`: whether the entry has a picture.
 pub(super) fn respond(
     response: Response,
     (found, place): (&Found, usize),
@@ -98,8 +102,8 @@ pub(super) fn respond(
     response
 }
 
-/// Selects another entry by arrow keys while an entry has the keyboard, which then moves to it. `columns`: entries side
-/// by side.
+/// Selects another product by arrow keys while the entry of a product has the keyboard focus. `columns`: number of
+/// entries side by side. Returns whether another product was selected, whose entry then takes the focus.
 pub(super) fn arrows(
     ui: &Ui,
     response: &Response,
@@ -126,7 +130,7 @@ pub(super) fn arrows(
     true
 }
 
-/// Draws the star, with its middle at a point.
+/// Draws the star, a button that adds the product to the favourites or removes it, centred at a screen position.
 pub(super) fn star(ui: &mut Ui, at: Pos2, entry: &Entry, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let rect = Rect::from_center_size(at, Vec2::splat(23.0));
@@ -140,13 +144,14 @@ pub(super) fn star(ui: &mut Ui, at: Pos2, entry: &Entry, commands: &mut Vec<Comm
     }
 }
 
-/// Returns the place in the comparison of the first candidate with this product.
+/// Returns the index, in the comparison, of the first candidate with the product of a key; `None` if there is none.
 pub(super) fn place_in_comparison(state: &State, key: &str) -> Option<usize> {
     let is = |system: &SystemKeys| matches!(system, SystemKeys::Catalogue { key: own, .. } if own == key);
     state.document.scene.compare.iter().position(|one| one.system.as_ref().is_some_and(is))
 }
 
-/// Draws the sign that adds a product to the comparison, or removes it; the sign has its middle at a point.
+/// Draws the button that adds a product to the comparison, or removes it if it is there (`compared`: its index there),
+/// centred at a screen position.
 pub(super) fn compare_sign(ui: &mut Ui, at: Pos2, entry: &Entry, compared: Option<usize>, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let rect = Rect::from_center_size(at, Vec2::splat(23.0));
@@ -168,7 +173,8 @@ pub(super) fn compare_sign(ui: &mut Ui, at: Pos2, entry: &Entry, compared: Optio
     }
 }
 
-/// Draws τ in the vertical plane, from a sun below on the left to one above on the right.
+/// Draws a small curve of the directional-hemispherical transmittance τ for incident directions in the vertical plane
+/// normal to the aperture, from light from below (left) to light from above (right).
 pub(super) fn thumbnail(painter: &egui::Painter, rect: Rect, entry: &Entry, palette: &theme::Palette) {
     painter.rect_filled(rect, 3, palette.raised);
     let last = entry.tau_profile.len().saturating_sub(1);

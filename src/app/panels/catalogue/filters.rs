@@ -1,5 +1,5 @@
-//! Filters of the catalogue: facets folded into menus, chosen values as chips, the order; and the filters to remove
-//! where nothing is found.
+//! Filters of the catalogue: facets as menus, chosen values as chips, the order of the list; and suggestions of filters
+//! to remove if nothing is found.
 
 use crate::app::command::Command;
 use crate::app::shelf::{Found, Query};
@@ -11,7 +11,8 @@ use crate::texts::{Text, catalogue as text};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{ComboBox, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
 
-/// Draws a menu of values that stays open while they are chosen.
+/// Draws the menu of a facet, which stays open while its values are chosen. `chosen`: whether a value of the facet is
+/// chosen.
 fn menu(ui: &mut Ui, [title, facet]: [Text; 2], chosen: bool, values: impl FnOnce(&mut Ui)) {
     let title =
         if chosen { RichText::new(title.get()).color(theme::palette(ui).accent) } else { RichText::new(title.get()) };
@@ -23,7 +24,8 @@ fn menu(ui: &mut Ui, [title, facet]: [Text; 2], chosen: bool, values: impl FnOnc
     button.accessible_name(text::filter_by(facet));
 }
 
-/// Draws a value with the number of products that choosing it would find. Returns whether it was clicked.
+/// Draws a value of a facet with the number of products that would be found if it were chosen. Returns whether it was
+/// clicked.
 fn value(ui: &mut Ui, chosen: bool, words: &str, count: usize) -> bool {
     // A value that would find nothing is shown, unlike one that is missing, and can be unchosen while it is chosen.
     ui.add_enabled(chosen || count > 0, egui::Button::selectable(chosen, format!("{words}  {count}"))).clicked()
@@ -49,7 +51,8 @@ fn list(ui: &mut Ui, facets: &[Facet], chosen: &mut Vec<String>, words: fn(&str)
     }
 }
 
-/// Draws a pair of values of which one may be chosen; without a choice both are listed.
+/// Draws two opposite values of a facet, of which at most one may be chosen (`Some(true)`: the first); `None`: products
+/// with either value are listed.
 fn either(ui: &mut Ui, words: [Text; 2], counts: [usize; 2], chosen: &mut Option<bool>) {
     for (yes, (words, count)) in [true, false].into_iter().zip(words.into_iter().zip(counts)) {
         if value(ui, *chosen == Some(yes), words.get(), count) {
@@ -76,7 +79,7 @@ fn figures(ui: &mut Ui, found: &Found, query: &mut Query) {
     }
 }
 
-/// Draws the facets, folded: a line or two of menus.
+/// Draws the facets as one or two lines of menus.
 pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal_wrapped(|ui| {
@@ -124,7 +127,7 @@ pub(super) fn facets(ui: &mut Ui, state: &State, query: &mut Query) {
     chosen(ui, query);
 }
 
-/// Draws the chosen values; a click removes a value.
+/// Draws the chosen values of facets as chips; a click on a chip removes its value.
 fn chosen(ui: &mut Ui, query: &mut Query) {
     let filters: Vec<Filter> = query.filters().collect();
     if filters.is_empty() {
@@ -146,7 +149,7 @@ fn chosen(ui: &mut Ui, query: &mut Query) {
     });
 }
 
-/// Draws the number of products that were found, and the choice of their order.
+/// Draws the number of products found, and the choice of their order.
 pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     let found = &*state.found;
     ui.horizontal(|ui| {
@@ -183,7 +186,8 @@ pub(super) fn order(ui: &mut Ui, state: &State, query: &mut Query) {
     });
 }
 
-/// Draws notes: products that were restored or are not listed, and words that were read as others.
+/// Draws notes on the search: products that were restored or are not listed, and searched words that were replaced by
+/// similar ones.
 pub(super) fn notes(ui: &mut Ui, found: &Found) {
     if !found.restored.is_empty() {
         ui.colored_label(theme::palette(ui).warning, text::restored(found.restored.join(", ")));
@@ -196,7 +200,8 @@ pub(super) fn notes(ui: &mut Ui, found: &Found) {
     }
 }
 
-/// Draws a chip with the product that the list is similar to; a click removes it.
+/// Draws a chip with the name of the product whose similar products are listed; a click on it returns to the ordinary
+/// search.
 pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let Some(key) = &state.query.like else { return };
     let found = state.found.like.as_ref().filter(|like| like.key == *key);
@@ -208,7 +213,7 @@ pub(super) fn like(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws buttons that remove filters, where nothing was found.
+/// Draws buttons that each remove a filter, if no product was found.
 pub(super) fn nothing(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
     let (found, query) = (&*state.found, &state.query);
     ui.add_space(16.0);

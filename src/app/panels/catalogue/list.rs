@@ -1,4 +1,4 @@
-//! The products as a list.
+//! The products of the catalogue as a list.
 
 use super::{entry, names};
 use crate::app::command::Command;
@@ -7,20 +7,20 @@ use crate::app::state::State;
 use crate::app::theme;
 use egui::{FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
-/// Height that a second line of a name adds to a row. \[points\]
+/// Height that a second line of the product's name adds to a row. \[points\]
 const SECOND_LINE: f32 = 18.0;
-/// Mean width of a letter of a name. \[points\]
+/// Mean width of a letter of a product's name. \[points\]
 const LETTER: f32 = 6.6;
 
-/// Returns the height of the list's rows \[points\]: all the same, so that only visible ones are drawn. Higher where a
-/// name of the list may need a second line.
+/// Returns the common height of all rows of the list \[points\], larger if the longest name \[characters\] may need a
+/// second line. Rows of equal height allow drawing visible rows only.
 fn row_height(ui: &Ui, longest_name: usize) -> f32 {
     let room = ui.available_width() - theme::ROW_HEIGHT - 26.0;
     let second = if longest_name as f32 * LETTER > room { SECOND_LINE } else { 0.0 };
     theme::ROW_HEIGHT + second
 }
 
-/// Draws the list, with `below` points left under it.
+/// Draws the list, with a height of `below` \[points\] left free under it.
 pub(super) fn show(ui: &mut Ui, state: &mut State, below: f32, commands: &mut Vec<Command>) {
     let found = state.found.clone();
     let entries = &found.entries;
@@ -51,7 +51,8 @@ fn offset_key(ui: &Ui) -> egui::Id {
     ui.scope_id().with("rows-offset")
 }
 
-/// Whether a row is outside the visible part of the list, as it was in the last frame.
+/// Whether a row, given by its index, is outside the part of the list that was visible in the last frame. `height` of a
+/// row and `step` from row to row \[points\].
 fn area_hides(ui: &Ui, row: usize, height: f32, step: f32) -> bool {
     let key = offset_key(ui);
     let offset = ui.data(|data| data.get_temp::<f32>(key)).unwrap_or(0.0);
@@ -59,6 +60,7 @@ fn area_hides(ui: &Ui, row: usize, height: f32, step: f32) -> bool {
     top < offset || top + step > offset + height
 }
 
+/// Draws a row of the list: picture, name, figures, star and comparison button of one product.
 fn row(ui: &mut Ui, state: &mut State, (found, place): (&Found, usize), height: f32, commands: &mut Vec<Command>) {
     let entries = &found.entries;
     let entry = &*entries[place];

@@ -1,4 +1,4 @@
-//! Menu of a right click on a row.
+//! Menu that a right click on a product of the catalogue opens.
 
 use crate::app::catalogue_command::CatalogueCommand;
 use crate::app::command::Command;
@@ -8,7 +8,7 @@ use crate::app::state::Sheet;
 use crate::catalogue::Collection;
 use crate::texts::catalogue as text;
 
-/// Draws the menu of a row.
+/// Draws the menu of a product's entry: compare, find similar products, collections, rename, delete.
 pub(super) fn show(row: &egui::Response, entry: &Entry, collections: &[Collection], commands: &mut Vec<Command>) {
     row.context_menu(|ui| {
         let key = || Some(entry.key.clone());

@@ -1,20 +1,20 @@
-//! Names in a list: on two lines where they need them; where that is not enough, cut in the middle, so that their
-//! difference stays.
+//! Product names in a list: on two lines if necessary; names too long for two lines are cut in the middle, so that the
+//! part that distinguishes them from their neighbours remains.
 
 use egui::epaint::text::{LayoutJob, TextWrapping};
 use egui::{Color32, FontId, Galley, Painter};
 use std::sync::Arc;
 
-/// Maximum number of lines of a name.
+/// Maximum number of lines of a product's name.
 const LINES: usize = 2;
 
-/// Returns the number of characters that two names begin with in common.
+/// Returns the number of characters at the beginning that two names have in common.
 fn common(a: &str, b: &str) -> usize {
     a.chars().zip(b.chars()).take_while(|(a, b)| a == b).count()
 }
 
-/// Returns a name cut to `most` characters: its beginning, and the part from where it first differs from the names
-/// beside it.
+/// Returns a name shortened to at most `most` characters: its beginning, and the part from the first character that
+/// differs from the names before and after it in the list.
 fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= most || most < 8 {
@@ -32,7 +32,8 @@ fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     format!("{}…{tail}{cut}", letters[..head].iter().collect::<String>())
 }
 
-/// Returns a name laid out in the width of a list, with the names before and behind it.
+/// Returns a name laid out in a width \[points\], shortened if necessary. `beside`: names before and after it in the
+/// list.
 pub(super) fn layout(
     painter: &Painter,
     name: &str,

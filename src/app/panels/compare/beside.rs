@@ -1,4 +1,4 @@
-//! The tile of each candidate side by side, all on one scale.
+//! One tile of each candidate, side by side, all with a common colour scale or axis.
 
 use super::places::{kind, missing, places, tile};
 use crate::app::command::Command;
@@ -18,14 +18,14 @@ use crate::study::comparison::scales;
 use crate::texts::compare as texts;
 use egui::{Label, RichText, Sense, Stroke, StrokeKind, Ui, UiBuilder, vec2};
 
-/// Height of a candidate's name. \[points\]
+/// Height of the line with a candidate's name. \[points\]
 const NAME: f32 = 24.0;
-/// Maximum width of the common scale. \[points\]
+/// Maximum width of the legend of the common colour scale. \[points\]
 const WIDE: f32 = 560.0;
-/// Share of its end at which a logarithmic scale of illuminances begins, as those of the tiles do.
+/// Lower end of a common logarithmic scale as a fraction of its upper end, the same as in the single tiles.
 const LEAST: f64 = 1e-4;
 
-/// Draws the tiles.
+/// Draws the tile of each candidate, and their common scale.
 pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let Some(tile) = tile(&app.state) else { return };
     let kind = kind(&app.state);
@@ -64,7 +64,8 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws the scale of all tiles, with one choice of its kind for all of them.
+/// Draws the legend of the common scale from `lo` to `hi`, in the unit of the compared tile, and the choice between a
+/// linear and a logarithmic scale (`log`; `None` if there is no choice) for all tiles.
 fn legend(ui: &mut Ui, kind: Option<TileKind>, [lo, hi]: [f64; 2], log: Option<bool>, commands: &mut Vec<Command>) {
     let unit = match kind {
         Some(TileKind::Btdf) => "q / (1/sr)",
@@ -98,6 +99,8 @@ fn legend(ui: &mut Ui, kind: Option<TileKind>, [lo, hi]: [f64; 2], log: Option<b
     });
 }
 
+/// Draws the tile of one candidate, or the reason why there is none. `scale`: lowest and highest value of the common
+/// scale; `held`: whether the user is dragging; `stopped`: whether no candidate is being computed.
 fn one(
     ui: &mut Ui,
     column: &mut Column,
@@ -130,8 +133,9 @@ fn one(
     bench.show(ui, tile, &seen, commands);
 }
 
-/// Returns the lowest and highest value of a scale that holds all candidates; `None` for tiles whose scales are fixed,
-/// and before there are any data.
+/// Returns the lowest and highest value of a scale for all candidates, in the unit of the tile: q \[1/sr\], τ,
+/// intensity \[cd\], illuminance \[lx\] or luminance \[cd/m²\]. `None` for tiles with a fixed scale, and before there
+/// are results.
 fn scale(columns: &[Column], kind: Option<TileKind>) -> Option<[f64; 2]> {
     let data =
         || columns.iter().filter_map(|column| Some((column, column.state.dataset.value.as_ref()?.transmission()?)));

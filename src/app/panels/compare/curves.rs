@@ -1,4 +1,4 @@
-//! Curves of all candidates in one plot, distinguished by colour and dashes.
+//! Curves of all candidates in the same plot, distinguished by colour and dashes.
 
 use super::places::{kind, short, tile_words};
 use crate::app::compare_columns::{Column, Columns};
@@ -15,7 +15,7 @@ use crate::texts::compare as texts;
 use crate::texts::language;
 use egui::Ui;
 
-/// Draws the plots.
+/// Draws the plots of the compared tile with a curve for each candidate.
 pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let (tile, kind) = (app.state.compare.tile(), kind(&app.state));
     let whole = ui.available_rect_before_wrap();
@@ -58,11 +58,14 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
     }
 }
 
-/// Returns the candidates' numbers and names, each with a result of the candidate, for those that have it.
+/// Returns the results that `of` gives for the candidates, each with number and name of its candidate; candidates
+/// without the result are left out.
 fn known<'a, T>(list: &'a [Column], names: &[String], of: impl Fn(&'a Column) -> Option<T>) -> Vec<(String, T)> {
     list.iter().zip(names).filter_map(|(column, name)| Some((name.clone(), of(column)?))).collect()
 }
 
+/// Returns the plots for a kind of tile, with a series for each candidate that has a result; empty for kinds that are
+/// not compared by curves.
 fn make(kind: Option<TileKind>, list: &[Column], names: &[String]) -> Vec<Plot> {
     let transmission = |column: &'_ Column| column.state.dataset.value.clone();
     match kind {

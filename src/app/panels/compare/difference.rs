@@ -1,4 +1,4 @@
-//! Each candidate minus the reference, with sign, all on one scale.
+//! Difference of each candidate's results from those of the reference candidate, with sign, all with one colour scale.
 
 use super::places::{kind, missing, places, short};
 use crate::app::compare_columns::{Column, Columns};
@@ -13,7 +13,7 @@ use crate::study::comparison::difference::{of_q, of_rooms, of_tau};
 use crate::texts::compare as texts;
 use egui::{Stroke, StrokeKind, Ui, UiBuilder};
 
-/// Draws the tiles.
+/// Draws the picture of the difference for each candidate, and their common scale.
 pub(super) fn show(ui: &mut Ui, app: &mut App) {
     let tile = app.state.compare.tile();
     let names = app.compare.names();
@@ -72,8 +72,9 @@ fn is_there(kind: TileKind, column: &Column) -> bool {
     if kind == TileKind::Room { column.results.room.value.is_some() } else { column.state.dataset.value.is_some() }
 }
 
-/// Returns the difference of a candidate from the reference; `None` while one of them is not known, or where they have
-/// nothing in common.
+/// Returns the picture of the difference between a candidate (`column`) and the reference (`base`): illuminances of the
+/// sensors \[lx\], q \[1/sr\] or τ. `None` while a result is missing, or if the results have no sensors or cells in
+/// common.
 fn picture(kind: TileKind, column: &Column, base: &Column) -> Option<Picture> {
     if kind == TileKind::Room {
         let of = |column: &Column| {

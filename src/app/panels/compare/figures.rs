@@ -1,5 +1,5 @@
-//! The table of figures: each with unit and error, the better one marked where the difference is larger than the
-//! errors.
+//! The table of the candidates' figures, each with unit and statistical error; the better value is marked if the
+//! difference exceeds the errors.
 
 use crate::app::command::Command;
 use crate::app::compare::Act;
@@ -9,7 +9,7 @@ use crate::study::comparison::{Row, Value, Verdict, verdict_words};
 use crate::texts::compare as texts;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
 
-/// Returns the text of the last column: the better candidates, or why there are none.
+/// Returns the text of the last column: the numbers of the better candidates, or the reason why none is better.
 fn verdict(row: &Row, names: &[String]) -> String {
     match &row.verdict {
         Verdict::Better(list) => {
@@ -20,7 +20,7 @@ fn verdict(row: &Row, names: &[String]) -> String {
     }
 }
 
-/// Draws a value of the table, marked where it is better.
+/// Draws the value of a candidate (index `place`) after the text `start`, with a mark if it is the better one.
 fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
     let text = row.values[place].map_or_else(|| "–".to_owned(), Value::words);
     if matches!(&row.verdict, Verdict::Better(list) if list.contains(&place)) {
@@ -31,13 +31,13 @@ fn cell(ui: &mut Ui, row: &Row, place: usize, start: &str) {
     }
 }
 
-/// Returns name and unit of a figure.
+/// Returns name and unit of a row's figure as text.
 fn heading(row: &Row) -> String {
     let unit = if row.figure.unit.is_empty() { String::new() } else { format!(" / {}", row.figure.unit) };
     format!("{}{unit}", row.figure.name)
 }
 
-/// Draws the table with one column per candidate.
+/// Draws the table with a column for each candidate.
 fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
     Grid::new("compared figures").striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
         ui.label(RichText::new(texts::FIGURE.get()).strong());
@@ -58,7 +58,7 @@ fn table(ui: &mut Ui, rows: &[Row], names: &[String]) {
     });
 }
 
-/// Draws one line per candidate under each figure, where there is no room for columns.
+/// Draws the values of the candidates line by line under the name of each figure, if there is no room for columns.
 fn lines(ui: &mut Ui, rows: &[Row], names: &[String]) {
     names.iter().for_each(|name| drop(ui.add(Label::new(RichText::new(name).strong()).wrap())));
     for row in rows {
@@ -71,11 +71,11 @@ fn lines(ui: &mut Ui, rows: &[Row], names: &[String]) {
     }
 }
 
-/// Width of a candidate's column, and of the first and the last together. \[points\]
+/// Width of a candidate's column, and common width of the first and the last column. \[points\]
 const COLUMN: f32 = 134.0;
 const OUTER: f32 = 370.0;
 
-/// Draws the table.
+/// Draws the table of figures, or the lines that replace it in little space.
 pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let (rows, names) = (app.rows(), app.compare.names());
     let palette = theme::palette(ui);

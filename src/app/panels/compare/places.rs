@@ -1,5 +1,5 @@
-//! Parts shared by the forms of comparison: the tile that is compared, the places of the candidates' tiles, and the
-//! text in place of one.
+//! Parts shared by the kinds of comparison: the compared tile, the rectangles of the candidates' tiles, and the text in
+//! place of a missing picture.
 
 use crate::app::compare_columns::Column;
 use crate::app::state::{State, Tile};
@@ -8,8 +8,8 @@ use crate::report::TileKind;
 use crate::texts::compare as texts;
 use egui::{Rect, vec2};
 
-/// Returns a name in at most `most` letters: its beginning, which says what it is, and its end, which distinguishes it
-/// from others.
+/// Returns a name shortened to at most `most` letters: its beginning and its end with "…" between them, because names
+/// of similar products often differ at the end.
 pub(super) fn short(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if letters.len() <= most {
@@ -21,22 +21,23 @@ pub(super) fn short(name: &str, most: usize) -> String {
     format!("{}…{}", first.trim_end(), end.trim_start())
 }
 
-/// Returns a tile's title for people.
+/// Returns the title of a tile in the language of the window.
 pub(super) fn tile_words(title: &str) -> String {
     TileKind::titled(title).map_or_else(|| title.to_owned(), |kind| kind.words().into())
 }
 
-/// Returns the kind of the compared tile, if it is one of those that are compared and exported.
+/// Returns the kind of the compared tile; `None` if it is not of a kind that can be compared and exported.
 pub(super) fn kind(state: &State) -> Option<TileKind> {
     TileKind::titled(state.compare.tile())
 }
 
-/// Returns the tile that is compared.
+/// Returns the compared tile; `None` if there is no tile with its title.
 pub(super) fn tile(state: &State) -> Option<Tile> {
     TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == state.compare.tile())
 }
 
-/// Returns the places of the tiles of `count` candidates: side by side while each is wide enough, else in two rows.
+/// Returns the rectangles for the tiles of `count` candidates: side by side if each is wide enough, otherwise in two
+/// rows.
 pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
     const GAP: f32 = 6.0;
     let rows = if count > 3 && whole.width() / (count as f32) < 300.0 { 2 } else { 1 };
@@ -49,7 +50,7 @@ pub(super) fn places(whole: Rect, count: usize) -> Vec<Rect> {
     (0..count).map(|k| Rect::from_min_size(whole.min + place(k), size)).collect()
 }
 
-/// Returns the text in place of a candidate's picture.
+/// Returns the text in place of a candidate's missing picture: its error, or that it is being computed.
 pub(super) fn missing(column: &Column) -> String {
     column.error().map_or_else(|| texts::COMPUTING.into(), str::to_owned)
 }

@@ -1,5 +1,5 @@
-//! Details beside the table of an import: texts about the selected products, and the row that is shown, as it will be
-//! stored.
+//! Details beside the table of an import: texts about the selected products, and the state of the active row as it will
+//! be stored.
 
 use super::findings::{counts, diagnoses, picture, repair_words, seen};
 use crate::app::command::Command;
@@ -10,7 +10,7 @@ use crate::compute::doctor::{Repair, RepairKind};
 use crate::texts::{fixed, import as text};
 use egui::{TextEdit, Ui};
 
-/// Draws the details.
+/// Draws the details of the selected rows.
 pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let products = import.selected_products();
     let there = |row: &Row| import.products.get(row.0).is_some_and(|product| row.1 < product.datasets.len());
@@ -32,7 +32,7 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     }
 }
 
-/// Draws fields whose texts are given to all selected products.
+/// Draws text fields whose contents are given to all selected products.
 fn for_all(ui: &mut Ui, import: &Import, products: &[usize], commands: &mut Vec<Command>) {
     egui::Grid::new("for all").num_columns(2).show(ui, |ui| {
         for word in Word::ALL {
@@ -53,6 +53,7 @@ fn for_all(ui: &mut Ui, import: &Import, products: &[usize], commands: &mut Vec<
     ui.weak(text::FOR_ALL.get());
 }
 
+/// Draws the details of one state of a product: file, bases, transmittances, findings of the data check, and repairs.
 fn state(ui: &mut Ui, (own, place): Row, product: &Proposed, commands: &mut Vec<Command>) {
     let dataset = &product.datasets[place];
     let source = product.sources.get(place).filter(|source| !source.is_empty());

@@ -1,5 +1,5 @@
-//! Findings of the data check on datasets, with repairs to try, and a picture that shows whether the data lie as they
-//! should.
+//! Findings of the data check on datasets, with repairs to try, and a picture of the directions of the transmitted
+//! light, which shows whether the orientation of the data is right.
 
 use crate::app::import::number;
 use crate::app::state::State;
@@ -11,8 +11,8 @@ use crate::texts::{Text, fixed, import as text};
 use egui::{Color32, Sense, Stroke, Ui, Vec2};
 use std::sync::Arc;
 
-/// Returns the number of findings of each severity, errors before warnings and infos: `1 error, 2 warnings`; empty
-/// without any.
+/// Returns the number of findings of each severity as text, errors before warnings and infos: `1 error, 2 warnings`;
+/// empty without findings.
 pub(super) fn counts(list: &[Diagnosis]) -> String {
     let of = |severity: Severity| list.iter().filter(|one| one.finding.severity == severity).count();
     type Words = (Severity, Text, fn(usize) -> String);
@@ -27,7 +27,7 @@ pub(super) fn counts(list: &[Diagnosis]) -> String {
     words.join(", ")
 }
 
-/// Returns a repair as text for buttons; the functions that it is for stay as findings name them.
+/// Returns the text of a repair for buttons; names of scattering functions are the same as in findings.
 pub(super) fn repair_words(repair: Repair) -> String {
     use RepairKind::*;
     let kind = match repair.kind {
@@ -49,12 +49,12 @@ pub(super) fn repair_words(repair: Repair) -> String {
     repair.label().replacen(repair.kind.label(), kind.get(), 1)
 }
 
-/// Returns the highest severity of the findings.
+/// Returns the highest severity of the findings; `None` without findings.
 pub(super) fn worst(list: &[Diagnosis]) -> Option<Severity> {
     list.iter().map(|one| one.finding.severity).max()
 }
 
-/// Draws the findings on the selected dataset, once it was checked.
+/// Draws the findings of the data check on the selected dataset, if it has been checked.
 pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
     match state.examined.as_ref().filter(|(of, _)| Arc::ptr_eq(of, dataset)) {
         Some((_, found)) => diagnoses(ui, found, &[], |_| {}),
@@ -62,7 +62,8 @@ pub fn of_selection(ui: &mut Ui, state: &State, dataset: &Arc<Dataset>) {
     }
 }
 
-/// Draws findings with their title and meaning, and a button for every repair that is offered and not yet made.
+/// Draws findings with title and meaning, and a button for every offered repair that is not in `made`, i.e. not yet
+/// made; `ask` takes the repair that the user chooses.
 pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut ask: impl FnMut(Repair)) {
     let palette = theme::palette(ui);
     if list.is_empty() {
@@ -95,15 +96,17 @@ pub(super) fn diagnoses(ui: &mut Ui, list: &[Diagnosis], made: &[Repair], mut as
     }
 }
 
-/// Figures shown of a dataset: computed once per dataset, not once per frame.
+/// Figures of a dataset that the details show, computed once per dataset instead of once per frame.
 pub(super) struct Seen {
-    /// Transmittance at normal incidence and under uniform light.
+    /// Luminous transmittance at normal incidence, and under uniform diffuse light.
     pub tau: [f64; 2],
-    /// Shares of the light of a sun at 45° altitude; `None` when nothing passes.
+    /// Distribution of the transmitted light over emergent directions with the sun at 45° altitude in the plane normal
+    /// to the aperture; `None` if no light is transmitted.
     pub ways: Option<Ways>,
 }
 
-/// Returns the figures shown of a dataset; `None` for one without transmission of light from outside.
+/// Returns the figures of a dataset that the details show; `None` for a dataset without transmission of light from
+/// outside.
 pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
     type Kept = (Arc<Dataset>, Arc<Seen>);
     let id = egui::Id::unique("import seen");
@@ -118,8 +121,9 @@ pub(super) fn seen(ui: &Ui, dataset: &Arc<Dataset>) -> Option<Arc<Seen>> {
     Some(seen)
 }
 
-/// Draws the section through an aperture with the sun 45° above outside, on the left, and arrows into the room as long
-/// as their shares of the light; below it the figures.
+/// Draws a section through an aperture with the outside and the sun at 45° altitude on the left, and two arrows into
+/// the room, upwards and downwards, with lengths proportional to their shares of the transmitted light; below it the
+/// figures.
 pub(super) fn picture(ui: &mut Ui, &Ways { tau, up, .. }: &Ways) {
     let (response, painter) = ui.allocate_painter(Vec2::new(120.0, 72.0), Sense::hover());
     let palette = theme::palette(ui);

@@ -1,4 +1,5 @@
-//! The table of an import: one line per product, its states under it, and every question in its place.
+//! The table of an import: a line for each product, its states under it, and every open question at the product it
+//! concerns.
 
 use super::findings::{counts, worst};
 use crate::app::command::Command;
@@ -10,12 +11,12 @@ use crate::compute::btdf::Severity;
 use crate::texts::{Text, fixed, import as text};
 use egui::{Align, FontId, Layout, Rect, Response, RichText, Sense, TextEdit, Ui, UiBuilder, pos2, vec2};
 
-/// Height of a line. \[points\]
+/// Height of a line of the table. \[points\]
 const LINE: f32 = 28.0;
-/// Widths of the columns behind the file's name: angle, name of the state, τ, findings. \[points\]
+/// Widths of the columns after the file name: angle, name of the state, transmittance τ, findings. \[points\]
 const COLUMNS: [f32; 4] = [64.0, 120.0, 52.0, 130.0];
 
-/// Draws the table.
+/// Draws the table of products and states of an import.
 pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 20.0), Sense::hover());
     let palette = theme::palette(ui);
@@ -42,7 +43,7 @@ pub(super) fn show(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
     }
 }
 
-/// Returns the file's cell and those of [`COLUMNS`].
+/// Returns the rectangles of a line's cells: the file name, then those of [`COLUMNS`].
 fn cells(line: Rect) -> [Rect; 5] {
     let mut right = line.right();
     let mut cells = [line; 5];
@@ -54,6 +55,8 @@ fn cells(line: Rect) -> [Rect; 5] {
     cells
 }
 
+/// Draws the lines of a product (index `number` of the import): its title, its question, a note on equal data, its
+/// problem, and its states.
 fn one(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     head(ui, import, number, product, commands);
     if let Some(ambiguity) = product.ambiguity.as_ref().filter(|_| product.wanted()) {
@@ -75,7 +78,7 @@ fn one(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, commands
     }
 }
 
-/// Draws a line that begins under its product's name.
+/// Draws a line of the table that is indented to start under its product's name.
 fn indented(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
     if ui.is_rect_visible(rect) {
@@ -85,7 +88,7 @@ fn indented(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
     }
 }
 
-/// Returns a state's key, with the unit where it is an angle.
+/// Returns the key of a state as text, with "°" if it is an angle.
 fn words_of(words: &StateWords) -> String {
     match (words.number(), words.name.trim()) {
         (Some(_), "") => format!("{}°", words.key()),
@@ -94,7 +97,7 @@ fn words_of(words: &StateWords) -> String {
     }
 }
 
-/// Returns a product as one line: its name and states.
+/// Returns a product as one line of text: its name and its states.
 fn title(product: &Proposed) -> String {
     let name = if product.named() { product.fields.name.trim() } else { text::NO_NAME.get() };
     let states: Vec<String> = product.states.iter().map(words_of).collect();
@@ -104,7 +107,8 @@ fn title(product: &Proposed) -> String {
     }
 }
 
-/// Returns the meaning of a click on a row, by the keys held; Space chooses a row beside others.
+/// Returns the kind of selection that a click on a row means: up to this row with Shift held, this row in addition with
+/// Ctrl held or by Space, otherwise this row alone.
 fn meant(ui: &Ui, response: &Response) -> Choose {
     let modifiers = ui.input(|input| input.modifiers);
     if modifiers.shift {
@@ -116,7 +120,8 @@ fn meant(ui: &Ui, response: &Response) -> Choose {
     }
 }
 
-/// Draws a line that is chosen by a click.
+/// Draws a line that can be selected, with its shown text and its accessible label. `left`: horizontal screen position
+/// of the text \[points\].
 fn option(ui: &Ui, rect: Rect, chosen: bool, words: (&str, &str), palette: &Palette, left: f32) -> Response {
     let (shown, label) = words;
     let response = ui.interact(rect, ui.scope_id().with("row"), Sense::click());
@@ -130,6 +135,8 @@ fn option(ui: &Ui, rect: Rect, chosen: bool, words: (&str, &str), palette: &Pale
     if cut { response.on_hover_text(shown) } else { response }
 }
 
+/// Draws the first line of a product (index `number`): its name and the names of its states, with an arrow that folds
+/// them.
 fn head(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     let (line, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
     if !ui.is_rect_visible(line) {
@@ -160,6 +167,7 @@ fn head(ui: &mut Ui, import: &Import, number: usize, product: &Proposed, command
     }
 }
 
+/// Draws an open question about the grouping of a product's files, with a button for each answer.
 fn question(ui: &mut Ui, import: &Import, number: usize, ambiguity: &Ambiguity, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let name = import.products[number].fields.name.clone();
@@ -198,7 +206,7 @@ fn question(ui: &mut Ui, import: &Import, number: usize, ambiguity: &Ambiguity, 
     });
 }
 
-/// Combines a product with those of these files.
+/// Adds the commands that combine a product (index `number`) with the products of the files `others`.
 fn together(import: &Import, number: usize, others: &[String], commands: &mut Vec<Command>) {
     let asked = |row: &Row| {
         let source = import.products[row.0].sources.get(row.1);
@@ -216,7 +224,7 @@ fn together(import: &Import, number: usize, others: &[String], commands: &mut Ve
     }
 }
 
-/// Draws a note if the same data are there already, in the catalogue or in another file.
+/// Draws a note if the data of a product (index `number`) exist already, in the catalogue or in another file.
 fn there_already(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut Vec<Command>) {
     let known = product.known.first();
     let line = match (known, &product.same_as) {
@@ -239,6 +247,7 @@ fn there_already(ui: &mut Ui, number: usize, product: &Proposed, commands: &mut 
     });
 }
 
+/// Draws the line of a state: file name, angle, name, transmittance τ, findings.
 fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, commands: &mut Vec<Command>) {
     let (line, _) = ui.allocate_exact_size(vec2(ui.available_width(), LINE), Sense::hover());
     if !ui.is_rect_visible(line) {

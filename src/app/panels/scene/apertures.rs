@@ -5,10 +5,10 @@ use crate::study::scene_file::{ApertureKeys, ApertureReflectance, RoomKeys, Scen
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{Button, Ui};
 
-/// Minimum edge of an aperture. \[m\]
+/// Minimum width and height of an aperture. \[m\]
 const LEAST: f64 = 0.05;
 
-/// Returns the extent of a surface along an aperture's two axes. \[m\]
+/// Returns the size \[m\] of a surface of the room, façade or roof, along the two axes of an aperture in it.
 fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
     match surface {
         SurfaceKey::Facade => [room.width, room.height],
@@ -19,7 +19,8 @@ fn extent(room: &RoomKeys, surface: SurfaceKey) -> [f64; 2] {
 /// Labels of the fields of an aperture's size.
 const SIZES: [Text; 2] = [texts::WIDTH, texts::HEIGHT];
 
-/// Returns the position to which an edge has to move so that a size fits from it \[m\]; `None` where it may stay.
+/// Returns the position \[m\] to which the lower edge of an aperture has to move so that its size \[m\] fits into the
+/// extent \[m\] of the surface; `None` if it need not move.
 fn pushed(origin: f64, size: f64, extent: f64) -> Option<f64> {
     // To the millimetre, so that what is shown is what is meant.
     let most = ((extent - size) * 1000.0).floor() / 1000.0;
@@ -41,7 +42,8 @@ fn overlap(a: &ApertureKeys, b: &ApertureKeys) -> bool {
     a.surface == b.surface && axis(0) && axis(1)
 }
 
-/// Returns a message on the first aperture that the room is too small for, with the valid values; `None` without one.
+/// Returns a message on the first aperture that extends beyond its surface of the room, with the size of that surface;
+/// `None` if there is none.
 pub fn beyond(scene: &SceneFile) -> Option<String> {
     scene.aperture.iter().enumerate().find_map(|(i, a)| {
         let extent = extent(&scene.room, a.surface);
@@ -55,7 +57,8 @@ pub fn beyond(scene: &SceneFile) -> Option<String> {
     })
 }
 
-/// Returns a message on what is wrong with the apertures, with the valid values; `None` if nothing is.
+/// Returns a message on the first aperture that extends beyond its surface, or the first two that overlap; `None` if
+/// there are none.
 pub fn problem(scene: &SceneFile) -> Option<String> {
     if let Some(text) = beyond(scene) {
         return Some(text);
@@ -68,8 +71,8 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     None
 }
 
-/// Returns a new aperture with the last one's system: a square metre of façade or roof (or the size of the room's
-/// surface) that is still free; `None` without space.
+/// Returns a new aperture with the system of the last one at the first free position in façade or roof, 1 m × 1 m or
+/// less if the surface is smaller; `None` if there is no space.
 fn addition(scene: &SceneFile) -> Option<ApertureKeys> {
     let last = scene.aperture.last()?;
     for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
@@ -89,7 +92,7 @@ fn addition(scene: &SceneFile) -> Option<ApertureKeys> {
     None
 }
 
-/// Draws the section.
+/// Draws the section of the apertures.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     let room = scene.room;
     let several = scene.aperture.len() > 1;
@@ -125,7 +128,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     }
 }
 
-/// Moves an aperture to another surface, inside its edges. Returns `true` where it had to become smaller.
+/// Moves an aperture to another surface, and inside the edges of that surface. Returns `true` if it had to be made
+/// smaller.
 fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) -> bool {
     aperture.surface = surface;
     let extent = extent(room, surface);
@@ -137,6 +141,7 @@ fn move_to(aperture: &mut ApertureKeys, surface: SurfaceKey, room: &RoomKeys) ->
     aperture.size != before
 }
 
+/// Draws the fields of one aperture: position, size, frame share, dirt factor and back reflectance.
 fn one(ui: &mut Ui, aperture: &mut ApertureKeys, room: &RoomKeys) {
     let low = match aperture.surface {
         SurfaceKey::Facade => texts::SILL,

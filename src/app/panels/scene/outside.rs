@@ -1,4 +1,4 @@
-//! Obstructions: boxes with name, place and size in metres, and their reflectance or luminance.
+//! Section of the obstructions: boxes with name, position and size in metres, and reflectance or luminance.
 
 use crate::app::command::Command;
 use crate::app::outside::{Act, Kind, ObstructionEffects, building, exact, name};
@@ -12,19 +12,19 @@ use crate::texts::{Text, fixed, scene as texts};
 use egui::{CollapsingHeader, Label, RichText, TextEdit, Ui};
 use glam::DVec3;
 
-/// Maximum distance that can be typed. \[m\]
+/// Maximum coordinate and size of a box that can be typed. \[m\]
 const FAR: f64 = 1000.0;
-/// Minimum size of a box. \[m\]
+/// Minimum size of a box along each axis. \[m\]
 const LEAST: f64 = 0.01;
-/// Change of a field per point of a drag. \[m\]
+/// Change of a coordinate or size per point of a drag. \[m/point\]
 const SPEED: f64 = 0.05;
-/// Luminance of a box when it is first set to a luminance. \[cd/m²\]
+/// Luminance that a box gets when the user changes it from a reflectance to a luminance. \[cd/m²\]
 const FIRST_LUMINANCE: f64 = 1000.0;
 
-/// Maximum length of the names that stand beside the section's. \[characters\]
+/// Maximum length of the names of obstructions in the summary of the folded section. \[characters\]
 const LONGEST: usize = 26;
 
-/// Returns the summary of the obstructions for the folded section.
+/// Returns the summary of the obstructions, shown when the section is folded.
 pub fn essence(scene: &SceneFile) -> String {
     let boxes: Vec<String> = scene.outside.iter().enumerate().map(|(number, keys)| name(number, keys)).collect();
     let count = boxes.len();
@@ -57,7 +57,8 @@ pub fn problem(scene: &SceneFile) -> Option<String> {
     inside.or_else(|| scene.outside.iter().enumerate().find_map(below))
 }
 
-/// Returns the changes of the apertures' illuminance without each obstruction as text.
+/// Returns the effect of each obstruction as text: the relative change \[%\] of the apertures' illuminance if the
+/// obstruction were not there, with its error.
 fn words(effects: &[Estimate]) -> Vec<String> {
     let words = |effect: &Estimate| {
         let sign = if effect.value > 0.0 { "+" } else { "" };
@@ -66,7 +67,7 @@ fn words(effects: &[Estimate]) -> Vec<String> {
     effects.iter().map(words).collect()
 }
 
-/// Draws the section.
+/// Draws the section of the obstructions.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffects>, commands: &mut Vec<Command>) {
     let mut effect = Vec::new();
     if !scene.outside.is_empty() || scene.building.is_some() {
@@ -139,7 +140,8 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, effects: &Shown<ObstructionEffec
     }
 }
 
-/// Draws a length that keeps its place on the other side: from `low` upwards, or from `high` downwards.
+/// Draws an input field for the size of a box along an axis, from its coordinate `low` to `high` \[m\]. A change moves
+/// `high`, or `low` if `keeps_high`.
 fn length(ui: &mut Ui, label: Text, low: &mut f64, high: &mut f64, keeps_high: bool) {
     let mut size = *high - *low;
     if number_by(ui, (label.get(), " m"), &mut size, LEAST..=FAR, 2, SPEED) {
@@ -151,6 +153,7 @@ fn length(ui: &mut Ui, label: Text, low: &mut f64, high: &mut f64, keeps_high: b
     }
 }
 
+/// Draws the fields of one box: name, position, size, rotation, and reflectance or luminance.
 fn one(ui: &mut Ui, keys: &mut OutsideKeys) {
     let called = row(ui, texts::BOX_NAME.get(), |ui| ui.add(TextEdit::singleline(&mut keys.name).desired_width(130.0)));
     called.on_hover_text(texts::BOX_NAME_TIP);

@@ -1,4 +1,5 @@
-//! The place: a city from the list, coordinates, or latitude, longitude, clock and elevation as typed numbers.
+//! Section of the site: a city from the list, geographical coordinates, or latitude, longitude, UTC offset and
+//! elevation as typed numbers.
 
 use super::summer_time;
 use crate::app::panels::fields::{number, optional, select_all};
@@ -12,17 +13,17 @@ use crate::texts::{decimal, fixed, scene as texts};
 use egui::accesskit::Role;
 use egui::{Align, Button, Key, Label, Layout, Modifiers, RichText, TextEdit, Ui, WidgetInfo};
 
-/// Maximum number of cities listed at once.
+/// Maximum number of cities in the list.
 const MOST: usize = 8;
 
-/// Content of the search field, and the marked row.
+/// Text of the search field, and the index of the marked row of the list.
 #[derive(Debug, Clone, Default)]
 struct Typed {
     text: String,
     row: usize,
 }
 
-/// Site that can be chosen.
+/// Site that can be chosen from the list.
 struct Choice {
     words: String,
     where_: String,
@@ -44,6 +45,7 @@ fn city_words(city: &City) -> String {
     format!("{}{region}, {}", city.name, city.country)
 }
 
+/// Returns a city as a site that can be chosen.
 fn of_city(city: &City) -> Choice {
     let height = city
         .elevation
@@ -60,7 +62,8 @@ fn of_city(city: &City) -> Choice {
     }
 }
 
-/// Returns a place by coordinates, with the clock of the nearest city, and its elevation where the place lies in it.
+/// Returns the site at a latitude and longitude \[°\], with the UTC offset and summer time of the nearest city, and its
+/// elevation if the coordinates lie within that city. `None` without a city.
 fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
     let (city, distance) = nearest(latitude, longitude)?;
     let elevation = city_at(latitude, longitude).and_then(|city| city.elevation);
@@ -80,7 +83,8 @@ fn of_coordinates((latitude, longitude): (f64, f64)) -> Option<Choice> {
     })
 }
 
-/// Returns the sites that match a text, their number, and an error message.
+/// Returns the first sites that match a text, the number of all matching sites, and an error message if the text
+/// contains invalid coordinates.
 fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
     match read_coordinates(text) {
         Some(Ok(place)) => {
@@ -96,7 +100,7 @@ fn choices(text: &str) -> (Vec<Choice>, usize, Option<String>) {
     }
 }
 
-/// Draws the section.
+/// Draws the section of the site.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     ui.label(site(scene));
     if let Some(choice) = find(ui) {
@@ -118,7 +122,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     number(ui, texts::ELEVATION, " m", &mut scene.site.elevation, LOWEST..=HIGHEST, 0);
 }
 
-/// Draws the search field with its list. Returns the site that was chosen.
+/// Draws the search field with its list of sites. Returns the site that the user chose in this frame.
 fn find(ui: &mut Ui) -> Option<Choice> {
     let key = ui.make_persistent_id("find a place");
     let id = key.with("field");
@@ -172,7 +176,7 @@ fn find(ui: &mut Ui) -> Option<Choice> {
     chosen
 }
 
-/// Draws a row of the list. Returns `true` where it was clicked.
+/// Draws a row of the list of sites. Returns `true` if it was clicked.
 fn choice_ui(ui: &mut Ui, choice: &Choice, marked: bool) -> bool {
     let height = ui.spacing().interact_size.y;
     let size = egui::vec2(ui.available_width(), height);

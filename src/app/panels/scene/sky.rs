@@ -1,4 +1,5 @@
-//! The sky: its model, and the source of its illuminances. They are shown whatever their source.
+//! Section of the sky: its luminance model, and the source of its illuminances (diffuse horizontal, direct normal),
+//! which are shown whatever their source.
 
 use crate::app::moment;
 use crate::app::panels::fields::{figure, lines, number, optional};
@@ -11,7 +12,8 @@ use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illum
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
 
-/// Names of the CIE general sky types in the standard's order. ISO 15469, table 1.
+/// Names of the CIE general sky types 1 … 15 in the order of ISO 15469, table 1, and of type 16, the traditional
+/// overcast sky.
 const CIE: [Text; 16] = [
     texts::CIE_1,
     texts::CIE_2,
@@ -31,7 +33,7 @@ const CIE: [Text; 16] = [
     texts::CIE_16,
 ];
 
-/// Returns label and tooltip of a source of the illuminances.
+/// Returns label and tooltip for a source of the sky's illuminances.
 const fn words(by: IlluminanceKey) -> (Text, Text) {
     match by {
         IlluminanceKey::ClearSky => (texts::FOLLOW_TURBIDITY, texts::FOLLOW_TURBIDITY_TIP),
@@ -40,7 +42,7 @@ const fn words(by: IlluminanceKey) -> (Text, Text) {
     }
 }
 
-/// Returns the name of a model in the list.
+/// Returns the name of a sky model in the list.
 const fn model_word(model: SkyModelKey) -> Text {
     match model {
         SkyModelKey::Cie => texts::MODEL_CIE,
@@ -51,8 +53,8 @@ const fn model_word(model: SkyModelKey) -> Text {
     }
 }
 
-/// Returns the reason why the figures of a sky are impossible with a sun at its low altitude; `None` where they are
-/// possible.
+/// Returns the reason why the illuminance or irradiances given for a sky are impossible at the sun's altitude, which is
+/// low or negative; `None` if they are possible.
 pub fn low_sun(scene: &SceneFile) -> Option<Text> {
     // Weather brings its own sun: what is typed here has none.
     let (altitude, _) = moment::sun_of_site(scene).filter(|_| scene.sky.weather.is_none())?;
@@ -78,7 +80,7 @@ pub fn low_sun(scene: &SceneFile) -> Option<Text> {
     }
 }
 
-/// Draws the section. `low_sun`: result of [`low_sun`].
+/// Draws the section of the sky. `low_sun`: result of the function [`low_sun`].
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
     let width = ui.available_width() - 8.0;
     model(ui, &mut scene.sky, width);
@@ -122,12 +124,12 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, low_sun: Option<Text>) {
     }
 }
 
-/// Whether turbidity changes the illuminances of a sky.
+/// Whether the sky is of a clear CIE type, whose illuminances depend on turbidity.
 fn clear(sky: &SkyKeys) -> bool {
     sky.model == SkyModelKey::Cie && Cover::of_cie_type(sky.cie_type.unwrap_or(16)) == Cover::Clear
 }
 
-/// Returns the source of the illuminances as text.
+/// Returns a sentence on the source of the sky's illuminances: typed, clear-sky model, typical values, or night.
 fn origin(light: &Illuminances) -> String {
     if light.is_night() {
         return texts::NIGHT.into();
@@ -142,6 +144,7 @@ fn origin(light: &Illuminances) -> String {
     }
 }
 
+/// Draws the choice of the sky model, and the fields of its parameters.
 fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
     let shown = model_word(sky.model);
     let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
@@ -194,7 +197,7 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
     }
 }
 
-/// Sets a sky to a model, and removes keys that belong to one model alone.
+/// Changes the luminance model of a sky, and removes the keys that only the former model uses.
 fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
     sky.model = model;
     sky.cie_type = (model == SkyModelKey::Cie).then_some(12);

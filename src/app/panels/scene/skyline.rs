@@ -1,4 +1,4 @@
-//! The skyline: of uniform elevation, or by compass bearing.
+//! Fields of the skyline: its altitude, uniform or at compass bearings.
 
 use crate::app::panels::fields::number;
 use crate::app::typing::read_number;
@@ -6,7 +6,7 @@ use crate::study::scene_file::{ObstructionKeys, SceneFile, SkylineKeys};
 use crate::texts::scene as texts;
 use egui::{DragValue, Ui};
 
-/// Maximum number of points that the panel adds.
+/// Maximum number of points of the skyline that can be added in the panel.
 const MOST: usize = 72;
 
 /// Draws the fields of the skyline.
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
     }
 }
 
-/// Draws a row for each point.
+/// Draws a line for each point of the skyline: compass bearing and altitude.
 fn by_bearing(ui: &mut Ui, keys: &mut SkylineKeys) {
     let several = keys.altitudes.len() > 1;
     let mut gone = None;
@@ -70,7 +70,8 @@ fn by_bearing(ui: &mut Ui, keys: &mut SkylineKeys) {
     number(ui, texts::SKYLINE_LUMINANCE, " cd/m²", &mut keys.luminance, 0.0..=20_000.0, 0);
 }
 
-/// Returns a point in the middle of the widest gap, on the existing line.
+/// Returns a new point (bearing, altitude) \[°\] in the middle of the widest gap between the points of a skyline,
+/// interpolated between its neighbours.
 fn between(knots: &[[f64; 2]]) -> [f64; 2] {
     let mut sorted = knots.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]));

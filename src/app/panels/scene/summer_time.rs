@@ -1,4 +1,4 @@
-//! Summer time: the rule by which the clock is an hour ahead of standard time.
+//! Fields of summer time: the rule for the days on which the clock is one hour ahead of standard time.
 
 use crate::app::clock;
 use crate::app::panels::fields::{row, typed};
@@ -20,7 +20,8 @@ const fn word(key: DstKey) -> Text {
     }
 }
 
-/// Returns the rules of the list; the days are those of the European Union in 2026 until others are typed.
+/// Returns the rules in the list; the first and last day of the rule with typed days are initially those of the
+/// European Union in 2026.
 fn choices() -> [DstKey; 7] {
     let days = DstKey::days(date(2026, 3, 29), date(2026, 10, 25));
     [DstKey::None, DstKey::Eu, DstKey::Us, DstKey::Australia, DstKey::NewZealand, DstKey::Chile, days]

@@ -1,5 +1,5 @@
-//! Weather and year: the choice of the weather, its calendar to pick an hour from, and the settings of an annual
-//! simulation.
+//! Section of weather and year: the choice of the weather data, their calendar from which an hour can be chosen, and
+//! the settings of an annual simulation.
 
 use crate::app::command::Command;
 use crate::app::panels::fields::{lines, number, typed};
@@ -19,25 +19,26 @@ use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
 use crate::texts::{Text, fixed, one_line, year as texts};
 use egui::{ComboBox, Label, RichText, Ui};
 
-/// The weather as it was read, and its view.
+/// Weather data of the scene as they were read, and the state of their calendar.
 pub struct Weather<'a> {
-    /// Calendar of the weather as it was read.
+    /// Calendar of the hours of the weather data.
     pub calendar: &'a Shown<Calendar>,
-    /// State of the calendar's view.
+    /// Display state of the calendar between frames.
     pub view: &'a mut calendar::State,
 }
 
-/// Returns the summary for the folded section.
+/// Returns the summary of the section when folded: the short name of the weather data.
 pub fn essence(scene: &SceneFile) -> String {
     weather_of(scene).map_or_else(|| texts::NO_WEATHER.into(), short_name)
 }
 
-/// Returns the error of the weather; the error of a sky's own weather is shown in the sky's section.
+/// Returns the error in reading the weather data of the annual simulation; `None` if there is none, or if the sky
+/// itself uses the weather data, since the section of the sky then shows the error.
 pub fn problem(scene: &SceneFile, weather: &Weather<'_>) -> Option<String> {
     weather.calendar.error.clone().filter(|_| scene.sky.weather.is_none() && scene.year.is_some())
 }
 
-/// Draws the section.
+/// Draws the section of weather and year.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, commands: &mut Vec<Command>) {
     choice(ui, scene, commands);
     if weather_of(scene).is_some() {
@@ -52,6 +53,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, commands: 
     }
 }
 
+/// Draws the choice of the weather data: a list of built-in data, and a field for the path of a file.
 fn choice(ui: &mut Ui, scene: &SceneFile, commands: &mut Vec<Command>) {
     let chosen = weather_of(scene);
     let shown = chosen.map_or_else(|| texts::NO_WEATHER.into(), |name| name.display().to_string());
@@ -81,6 +83,7 @@ fn choice(ui: &mut Ui, scene: &SceneFile, commands: &mut Vec<Command>) {
     }
 }
 
+/// Draws the calendar of the weather data, with warnings; a click on an hour makes it the scene's date and time.
 fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let Weather { calendar: shown, view } = weather;
@@ -117,8 +120,8 @@ fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, command
     }
 }
 
-/// Draws a warning and a button that adopts the weather's place, for a scene that states another place than its
-/// weather.
+/// Draws a warning that the site of the scene differs from the station of the weather data, and a button that adopts
+/// the station as the site.
 fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
     let place = coordinates(station.latitude, station.longitude);
     let name = if station.name.is_empty() { place } else { one_line(&station.name).into() };
@@ -133,7 +136,8 @@ fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
     }
 }
 
-/// Draws the settings of an annual simulation; observers and zones beyond the default are edited in the scene's file.
+/// Draws the settings of an annual simulation; observers and electric-lighting zones other than the default ones can be
+/// edited in the scene file only.
 fn year(ui: &mut Ui, scene: &SceneFile, keys: &mut YearKeys) {
     ui.separator();
     let before = keys.hours;

@@ -1,4 +1,5 @@
-//! Date and time: typed, by sliders, or the sun by its angles. Every line keeps its place, wherever the sun is.
+//! Section of date and time: typed, set by sliders, or replaced by the angles of the sun. Every line has a fixed
+//! position, whatever the sun's.
 
 use crate::app::clock;
 use crate::app::moment;
@@ -14,10 +15,10 @@ use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 use std::path::Path;
 
-/// Step of the time's slider. \[min\]
+/// Step of the slider of the time of day. \[min\]
 const STEP: i32 = 5;
 
-/// Draws the section.
+/// Draws the section of date and time.
 pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     let Some(time) = moment::of(scene) else { return angles(ui, scene, base) };
     let shown = clock::date(time.date());
@@ -59,7 +60,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     sun(ui, scene, base);
 }
 
-/// Day of a scene, as key of sunrise and sunset.
+/// Scene and its base folder, hashed by site and day alone, as a key for sunrise and sunset.
 #[derive(Clone, Copy)]
 struct Day<'a>(&'a SceneFile, &'a Path);
 
@@ -72,7 +73,8 @@ impl Hash for Day<'_> {
     }
 }
 
-/// Cache of sunrise and sunset, computed once per day: finding them costs more than the rest of the panel.
+/// Computation of sunrise and sunset for egui's cache: once per site and day, because it takes longer than drawing the
+/// panel.
 #[derive(Default)]
 struct SunHours;
 
@@ -86,7 +88,7 @@ fn sun_hours(ui: &Ui, scene: &SceneFile, base: &Path) -> Option<RiseSet> {
     ui.memory_mut(|memory| *memory.caches.cache::<FrameCache<Option<RiseSet>, SunHours>>().get(Day(scene, base)))
 }
 
-/// Draws sunrise and sunset, and the position of the sun.
+/// Draws the times of sunrise and sunset, and the position of the sun, as text.
 fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
     let day = match sun_hours(ui, scene, base).map(|hours| (hours.rise, hours.set)) {
         Some((Some(rise), Some(set))) => texts::rise_and_set(moment::clock(rise), moment::clock(set)),
@@ -100,7 +102,8 @@ fn sun(ui: &mut Ui, scene: &SceneFile, base: &Path) {
     lines(ui, &position(scene, base), weak, 1);
 }
 
-/// Returns the position of the sun relative to horizon and façade, as text.
+/// Returns the altitude of the sun as text, and whether the sun is in front of or behind the façade; empty if it is
+/// unknown.
 fn position(scene: &SceneFile, base: &Path) -> String {
     let Some((altitude, bearing)) = moment::sun(scene, base) else { return String::new() };
     let words = moment::height_words(altitude.to_degrees(), 0);
@@ -113,6 +116,7 @@ fn position(scene: &SceneFile, base: &Path) -> String {
     }
 }
 
+/// Draws the fields for altitude and azimuth of the sun, in place of date and time.
 fn angles(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     ui.weak(texts::BY_ANGLES);
     let sun = &mut scene.sky.sun;
@@ -134,7 +138,7 @@ fn angles(ui: &mut Ui, scene: &mut SceneFile, base: &Path) {
     }
 }
 
-/// Draws sunrise and sunset as ticks under the time's slider.
+/// Draws ticks for sunrise and sunset under the slider of the time of day.
 fn sun_marks(ui: &Ui, scene: &SceneFile, base: &Path, rect: egui::Rect) {
     let Some(hours) = sun_hours(ui, scene, base) else { return };
     let colour = theme::palette(ui).sun;

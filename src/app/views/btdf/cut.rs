@@ -1,5 +1,5 @@
-//! Section curves of the light that leaves for one incident direction, over the angle: in the plane of incidence and
-//! across it.
+//! Section curves of the scattered light for one incident direction: q over the emergent angle, in the plane of
+//! incidence and in the plane perpendicular to it.
 
 use super::words::drawn;
 use crate::app::paint::colour_scale::ColourScale;
@@ -14,18 +14,20 @@ use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Number of steps of the angle on each side of the normal: half degrees.
+/// Number of steps of the emergent angle from the normal to ±90°, i.e. steps of 0.5°.
 const STEPS: i32 = 180;
 
-/// Returns the value at an angle off the normal, in the plane of an azimuth of through directions. Angles of light that
-/// is transmitted undeviated are positive.
+/// Returns the value q, or q·cosθ if `weighted`, \[1/sr\] of an emergent direction, given by the direction of
+/// undeviated light: its angle to the normal `angle`, −π/2 … π/2 \[rad\], and its azimuth `phi` \[rad\], or `phi` + π
+/// for negative angles.
 fn value(indicatrix: &Indicatrix, phi: f64, angle: f64, weighted: bool) -> f64 {
     let phi = if angle < 0.0 { phi + PI } else { phi };
     let index = indicatrix.basis.index(Dir::from_theta_phi(angle.abs(), phi));
     index.map_or(0.0, |index| drawn(indicatrix.q[index], &indicatrix.basis.cell(index), weighted))
 }
 
-/// Returns the section curves; for perpendicular incidence those of the vertical and the horizontal plane.
+/// Returns the plot of the two section curves; for perpendicular incidence they are those in the vertical and the
+/// horizontal plane. Angles are positive on the side of undeviated light.
 fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, weighted: bool) -> Plot {
     let oblique = direction.0.theta() > 0.01;
     let phi = if oblique { direction.0.phi() } else { FRAC_PI_2 };
@@ -47,7 +49,7 @@ fn curves(indicatrix: &Indicatrix, direction: Incident, scale: &ColourScale, wei
     }
 }
 
-/// Draws the section curves.
+/// Draws the plot of the section curves.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,

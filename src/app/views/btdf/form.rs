@@ -1,4 +1,4 @@
-//! The data in another form: its choice in the tile's head, and the notes on it.
+//! Processed data (filtered or compressed) in the BTDF tile: their choice in the tile's head, and the notes on them.
 
 use super::input::{Action, FormInput, Input};
 use crate::app::paint::tile::Foot;
@@ -7,7 +7,7 @@ use crate::study::data_form::{DataForm, Formed, How, NoForm};
 use crate::texts::{Text, fixed, tiles as say};
 use egui::Ui;
 
-/// Returns label and tooltip of a form.
+/// Returns label and tooltip of a kind of processing: original, filtered or compressed data.
 pub const fn words(form: DataForm) -> [Text; 2] {
     match form {
         DataForm::Measured => [say::MEASURED, say::MEASURED_TIP],
@@ -16,7 +16,7 @@ pub const fn words(form: DataForm) -> [Text; 2] {
     }
 }
 
-/// Draws the choice of the form, and of the map of schemes, in the tile's head.
+/// Draws the choice of the processing of the data, and of the map of interpolation schemes, in the tile's head.
 pub(super) fn choice(ui: &mut Ui, input: &Input<'_>, actions: &mut Vec<Action>) {
     let now = input.form.map_or(DataForm::Measured, |form| form.form);
     let menu = ui.menu_button(say::DATA, |ui| {
@@ -36,12 +36,12 @@ pub(super) fn choice(ui: &mut Ui, input: &Input<'_>, actions: &mut Vec<Action>) 
 }
 
 impl<'a> FormInput<'a> {
-    /// Returns the data in this form; `None` until they are computed.
+    /// Returns the processed data; `None` until they are computed, or if they cannot be.
     pub(super) fn made(&self) -> Option<&'a Formed> {
         self.result?.made.as_ref().ok()
     }
 
-    /// Returns the key of the form in tables.
+    /// Returns the key of the processing in tables (CSV).
     pub(super) const fn key(&self) -> &'static str {
         match self.form {
             DataForm::Measured => "measured",
@@ -50,7 +50,7 @@ impl<'a> FormInput<'a> {
         }
     }
 
-    /// Returns the reason why nothing is shown, as text.
+    /// Returns the reason why there are no processed data to show, as text.
     pub(super) fn missing(&self) -> String {
         if let Some(error) = self.error {
             return error.to_owned();
@@ -65,7 +65,8 @@ impl<'a> FormInput<'a> {
         }
     }
 
-    /// Returns the line under the picture: what was done to the data, and how far they are from the original data.
+    /// Returns the line under the picture: the processing of the data, and the difference of the processed data from
+    /// the original ones; the reason if there are none.
     pub(super) fn foot(&self) -> Option<Foot> {
         let Some(made) = self.made() else { return Some(Foot::from(self.missing())) };
         let percent = |share: f64| fixed(100.0 * share, 1);

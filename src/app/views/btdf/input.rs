@@ -1,4 +1,4 @@
-//! Input and actions of the BTDF tile.
+//! Input of the BTDF tile, and the requests of its user.
 
 use crate::app::data_looks::{FormResult, SchemesResult};
 use crate::app::incidence::Incidence;
@@ -7,62 +7,63 @@ use crate::compute::btdf::Btdf;
 use crate::compute::direction::Incident;
 use crate::study::data_form::DataForm;
 
-/// Input of the tile.
+/// Input of the BTDF tile in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
-    /// BTDF for light from outside; `None` while no product is chosen.
+    /// Bidirectional transmittance distribution function (BTDF) for light from outside; `None` while no product is
+    /// selected.
     pub btdf: Option<&'a Btdf>,
-    /// Product and state as text.
+    /// Names of product and state as text.
     pub name: &'a str,
-    /// Incident direction: the sun's or a chosen one.
+    /// Incident direction shown: that of the sun or a chosen one.
     pub incidence: Incidence,
     /// Direction of the sun; `None` if it is not in front of the façade.
     pub sun: Option<Incident>,
-    /// Scale forced from outside (comparison), lowest and highest q. \[1/sr\]
+    /// Lowest and highest q of the colour scale, if the comparison sets it. \[1/sr\]
     pub range: Option<[f64; 2]>,
-    /// Number that changes with `btdf`.
+    /// Revision number of `btdf`, which changes whenever the data do.
     pub revision: u64,
-    /// Data in another form than the original data, where that is shown.
+    /// Processed data, if these are shown instead of the original ones.
     pub form: Option<FormInput<'a>>,
-    /// Map of schemes, where it is shown.
+    /// Map of interpolation schemes on the incident side, if it is shown.
     pub schemes: Option<SchemesInput<'a>>,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the data shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
-/// Action of the user.
+/// Request of the user of the BTDF tile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
-    /// Choice of a cell of the incident hemisphere, given by its centre.
+    /// Choice of an incident direction, such as the centre of a cell of the incident hemisphere.
     ChooseIncidence(Incident),
-    /// Coupling of the incident direction to the sun, or (`false`) its end.
+    /// Coupling of the incident direction to the sun (`true`), or its end (`false`).
     FollowSun(bool),
-    /// Choice of the form in which the data are shown.
+    /// Choice of the processing of the data: original, filtered or compressed.
     Form(DataForm),
-    /// Switching of the map of schemes on or off.
+    /// Switching of the map of interpolation schemes on or off.
     Schemes,
 }
 
-/// Input for another form of the data than the original data.
+/// Processed data (filtered or compressed) as input of the BTDF tile.
 #[derive(Debug, Clone, Copy)]
 pub struct FormInput<'a> {
-    /// Form of the data.
+    /// Processing of the data.
     pub form: DataForm,
-    /// Data in `form`; `None` until they are computed.
+    /// Processed data; `None` until they are computed.
     pub result: Option<&'a FormResult>,
-    /// Internal error, as text.
+    /// Internal error of the computation, as text.
     pub error: Option<&'a str>,
-    /// Number that changes with `result`.
+    /// Revision number of `result`, which changes whenever the result does.
     pub revision: u64,
 }
 
-/// Input for the map of schemes.
+/// Map of interpolation schemes as input of the BTDF tile.
 #[derive(Debug, Clone, Copy)]
 pub struct SchemesInput<'a> {
-    /// Triangles of the map; `None` until they are computed.
+    /// Triangles between incident directions with their interpolation schemes; `None` until they are computed.
     pub result: Option<&'a SchemesResult>,
-    /// Internal error, as text.
+    /// Internal error of the computation, as text.
     pub error: Option<&'a str>,
-    /// Number that changes with `result`.
+    /// Revision number of `result`, which changes whenever the result does.
     pub revision: u64,
 }

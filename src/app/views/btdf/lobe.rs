@@ -1,5 +1,5 @@
-//! 3D polar surface of the light that leaves for one incident direction: the radius is the value, linear or
-//! logarithmic.
+//! 3D polar surface of the scattered light for one incident direction: the radius in every emergent direction is the
+//! value q or q·cosθ, on a linear or logarithmic scale.
 
 use super::place::Place;
 use super::words::{drawn, leaving_text};
@@ -16,17 +16,17 @@ use egui::{Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Number of steps of the polar angle and of the azimuth.
+/// Numbers of steps of the emergent directions' polar angle, 0 … 90°, and azimuth, 0 … 360°.
 const STEPS: [usize; 2] = [48, 96];
-/// Camera at a first start: from the side, a little from outside and above.
+/// First camera: from the side, a little from outside and above.
 const FIRST: Camera = Camera::from(-0.45, 0.3);
-/// Distance within which the cursor selects a node. \[points\]
+/// Maximum distance from the pointer to a node that it selects. \[points\]
 const REACH: f32 = 14.0;
 
-/// Key of the body: data and incident direction, weighting by the cosine, scale.
+/// Key of the cached surface: revision number of the data and incident direction, whether q·cosθ is drawn, and scale.
 type BodyKey = ((u64, [u64; 3]), bool, ColourScale);
 
-/// State of this picture between frames.
+/// Camera and cached surface between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -39,33 +39,36 @@ impl Default for State {
     }
 }
 
-/// Input of the picture.
+/// Input of the polar surface in one frame.
 pub(super) struct Input<'a> {
-    /// Light that leaves.
+    /// Scattered light of the incident direction: q for every emergent direction.
     pub indicatrix: &'a Indicatrix,
-    /// Incident direction.
+    /// Incident direction, in the façade frame.
     pub direction: Incident,
     /// Regular transmittance for this incident direction.
     pub regular: f64,
-    /// Scale of radius and colours.
+    /// Common scale of radius and colours.
     pub scale: &'a ColourScale,
     /// Whether q·cosθ is drawn instead of q.
     pub weighted: bool,
-    /// Number and direction that change with the data and with the incident direction.
+    /// Revision number of the data, and the incident direction as bits.
     pub key: (u64, [u64; 3]),
 }
 
-/// Returns the through direction of a node of the grid.
+/// Returns the direction of undeviated light for a node of the surface: row = step of the polar angle, column = step of
+/// the azimuth.
 fn node(row: usize, column: usize) -> Dir<Facade> {
     Dir::from_theta_phi(FRAC_PI_2 * row as f64 / STEPS[0] as f64, TAU * column as f64 / STEPS[1] as f64)
 }
 
-/// Returns the emergent direction of a through direction in the room frame: x along the façade, y into the room, z up.
+/// Returns the emergent direction of undeviated light as a vector in the room frame (x along the façade, y into the
+/// room, z up).
 fn into_room(through: Dir<Facade>) -> DVec3 {
     Surface::Facade.room_from_facade(-through.vector())
 }
 
-/// Returns the value of a through direction: that of its cell.
+/// Returns the value of an emergent direction, given by the direction of undeviated light: q or q·cosθ of its cell.
+/// \[1/sr\]
 fn value(input: &Input<'_>, through: Dir<Facade>) -> f64 {
     let Indicatrix { basis, q } = input.indicatrix;
     basis.index(through).map_or(0.0, |index| drawn(q[index], &basis.cell(index), input.weighted))
@@ -80,14 +83,16 @@ fn make(input: &Input<'_>) -> Body {
     })
 }
 
-/// Draws an arc of a unit circle, as far as it lies in front of the camera.
+/// Draws an arc of a unit circle in 3D, as far as it lies in front of the camera. `at`: point at an angle \[rad\];
+/// `ends`: first and last angle \[rad\].
 fn arc(painter: &Painter, view: &View, at: impl Fn(f64) -> DVec3, ends: [f64; 2], stroke: Stroke) {
     let angle = |k: u32| ends[0] + (ends[1] - ends[0]) * f64::from(k) / 48.0;
     let places: Vec<Pos2> = (0..=48).filter_map(|k| Some(view.screen(at(angle(k)))?.0)).collect();
     painter.add(Shape::line(places, stroke));
 }
 
-/// Draws the façade's plane, the horizontal and the vertical plane of the room, with their names.
+/// Draws unit circles in the plane of the façade and half circles in the horizontal and the vertical plane of the room,
+/// and the directions "up" and "into the room".
 fn axes(painter: &Painter, view: &View, palette: &Palette) {
     let stroke = Stroke::new(1.0, palette.outline);
     arc(painter, view, |a| DVec3::new(a.cos(), 0.0, a.sin()), [0.0, TAU], stroke);
@@ -101,7 +106,8 @@ fn axes(painter: &Painter, view: &View, palette: &Palette) {
     }
 }
 
-/// Draws the surface. Returns text and value for the node under the cursor.
+/// Draws the surface with the incident direction as an arrow. Returns text and value \[1/sr\] for the node under the
+/// pointer.
 pub(super) fn show(ui: &mut Ui, place: &Place, input: &Input<'_>, state: &mut State) -> (Option<Foot>, Option<f64>) {
     let palette = Palette::of(ui.visuals());
     let bottom = place.legend.map_or(place.rect.bottom(), |legend| legend.top());

@@ -1,4 +1,4 @@
-//! Layout of the two hemispheres in a tile, and their captions.
+//! Layout of the incident and the emergent hemisphere in a tile, and their captions.
 
 use crate::app::paint::colour_scale::LEGEND_HEIGHT;
 use crate::app::paint::hemisphere::{Disk, Projection};
@@ -6,23 +6,25 @@ use crate::app::paint::palette::Palette;
 use crate::texts::tiles as say;
 use egui::{Align2, Rect, Ui, pos2, vec2};
 
-/// Place of one of the two hemispheres in the tile.
+/// Layout of one of the two hemispheres in the tile.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
-    /// Area that may be written on.
+    /// Rectangle of the tile that belongs to the hemisphere.
     pub rect: Rect,
-    /// Disk of the hemisphere.
+    /// Disk that represents the hemisphere.
     pub disk: Disk,
-    /// Area of the hemisphere's legend; `None` if it has none.
+    /// Rectangle of the hemisphere's legend; `None` if it has none.
     pub legend: Option<Rect>,
-    /// Corner for the caption with its alignment; `None`: the caption stands under the disk.
+    /// Rectangle of the caption in a corner of the tile, with its alignment; `None` if the caption is placed under the
+    /// disk.
     pub corner: Option<(Rect, Align2)>,
 }
 
-/// Returns the places of the incident and the emergent hemisphere: side by side in a wide tile, else on a diagonal,
-/// where two disks of one tile are largest and the free corners hold the captions.
+/// Returns the layouts of the incident and the emergent hemisphere in a rectangle: side by side in a wide tile,
+/// otherwise along a diagonal, where the disks are largest and the two free corners take the captions.
 ///
-/// `stacked`: the emergent side is not drawn as a disk, and stands below the other in a narrow tile.
+/// `stacked`: whether the emergent side is not drawn as a disk; in a narrow tile it is then placed below the incident
+/// side.
 pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
     if rect.width() > 1.6 * rect.height() || rect.width() > 440.0 {
         let (left, right) = rect.split_left_right_at_fraction(0.5);
@@ -72,7 +74,7 @@ pub(super) fn places(rect: Rect, stacked: bool) -> [Place; 2] {
     ]
 }
 
-/// Draws rim and caption: the long caption where it fits.
+/// Draws the rim of a hemisphere and its caption: `side` alone or, if there is room, with the explanation `what`.
 pub(super) fn frame(ui: &Ui, place: &Place, projection: Projection, [side, what]: [&str; 2], palette: &Palette) {
     let Some((corner, align)) = place.corner else {
         let long = say::side_and(side, what);

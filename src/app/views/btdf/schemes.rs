@@ -1,5 +1,6 @@
-//! The map of schemes on the incident side: the interpolation within each triangle of the data's directions, and its
-//! reason.
+//! The map of interpolation schemes on the incident side: the triangles between the incident directions of the data,
+//! coloured by the treatment of lobes (peaks of scattered light) in the interpolation within each triangle, and the
+//! reason for it.
 
 use super::input::{Input, SchemesInput};
 use crate::app::data_looks::NoSchemes;
@@ -14,13 +15,16 @@ use crate::texts::{Text, tiles as say};
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::DVec3;
 
-/// Number of parts of a triangle's edge, which is an arc of a great circle.
+/// Number of straight parts by which an edge of a triangle, an arc of a great circle, is drawn.
 const PARTS: usize = 4;
-/// Share of a triangle's area that is drawn, so that the ground shows as a line between triangles.
+/// Fraction of a triangle's area that is drawn, so that the background is visible as a line between triangles.
 const DRAWN: f64 = 0.94;
-/// Height of a line of the legend. \[points\]
+/// Height of a line of the map's legend. \[points\]
 const LINE: f32 = 16.0;
 
+/// Returns the label of a treatment of the lobes within a triangle of incident directions: moved (all lobes occur at
+/// all three corners, and move between them), faded (a lobe that is missing at a corner fades towards it), blended (no
+/// corner has a lobe, so the smooth indicatrices are averaged), or dark (no light is transmitted at any corner).
 const fn word(way: Way) -> Text {
     match way {
         Way::Moved => say::WAY_MOVED,
@@ -30,6 +34,8 @@ const fn word(way: Way) -> Text {
     }
 }
 
+/// Returns the colour by which the map shows a treatment of the lobes within a triangle; see [`word`] for the
+/// treatments.
 fn colour(way: Way) -> Color32 {
     match way {
         Way::Moved => ColourMap::Sequential.at(0.35),
@@ -40,15 +46,17 @@ fn colour(way: Way) -> Color32 {
 }
 
 impl<'a> SchemesInput<'a> {
-    /// Returns the triangles; `None` until they are computed.
+    /// Returns the triangles of the map; `None` until they are computed, or if there are none.
     pub(super) fn triangles(&self) -> Option<&'a [Triangle]> {
         self.result?.made.as_deref().ok()
     }
 
+    /// Returns the interpolation scheme for direct sun that the scene requests and the map was computed for.
     fn asked(&self) -> SunScheme {
         self.result.map_or(SunScheme::default(), |result| result.key.1)
     }
 
+    /// Returns the reason why there is no map, as text.
     fn missing(&self) -> String {
         if let Some(error) = self.error {
             return error.to_owned();
@@ -62,15 +70,16 @@ impl<'a> SchemesInput<'a> {
         }
     }
 
-    /// Returns the reason for the scheme of the triangle under the pointer; without a map the reason why there is none.
-    /// `None` if there are triangles but the pointer is in none of them.
+    /// Returns a sentence on the interpolation in the triangle under the pointer at the screen position `at`, or the
+    /// reason why there is no map. `None` if the pointer is in no triangle of the map.
     pub(super) fn reason_at(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
         let Some(list) = self.triangles() else { return Some(Foot::from(self.missing())) };
         let d = Side::Incident.through_name(projection, disk.disk(at?))?;
         Some(self.why(list.iter().find(|one| holds(one, d.vector()))?))
     }
 
-    /// Returns the reason for the scheme of a triangle in one sentence, with the figures that decide.
+    /// Returns a sentence on the treatment of lobes in a triangle, with the figures that decide it and the stated
+    /// uncertainty of the interpolation schemes there, i.e. the share of the flux that each sends in wrong directions.
     fn why(&self, one: &Triangle) -> Foot {
         let percent = |share: f64| number(100.0 * share, 2);
         let own = self.asked();
@@ -89,14 +98,15 @@ impl<'a> SchemesInput<'a> {
     }
 }
 
-/// Whether a direction lies in a triangle of great circles.
+/// Whether a direction, a unit vector, lies in a triangle whose edges are arcs of great circles.
 fn holds(one: &Triangle, d: DVec3) -> bool {
     let [a, b, c] = one.corners;
     let sides = [a.cross(b).dot(d), b.cross(c).dot(d), c.cross(a).dot(d)];
     (sides.iter().all(|s| *s >= 0.0) || sides.iter().all(|s| *s <= 0.0)) && (a + b + c).dot(d) > 0.0
 }
 
-/// Returns all triangles, in the colours of their schemes.
+/// Returns a mesh of all triangles of the map on the disk, coloured by the treatment of lobes, or in one colour if the
+/// scene requests a scheme without such treatment.
 pub(super) fn mesh(disk: &Disk, projection: Projection, list: &[Triangle], input: &SchemesInput<'_>) -> Mesh {
     let mut mesh = Mesh::default();
     for one in list {
@@ -126,7 +136,7 @@ pub(super) fn mesh(disk: &Disk, projection: Projection, list: &[Triangle], input
     mesh
 }
 
-/// Draws the names of the colours that occur, on as many lines as they need.
+/// Draws the legend of the map: colour and label of each treatment that occurs, in as many lines as necessary.
 pub(super) fn legend(ui: &Ui, rect: Rect, align: Align2, input: &Input<'_>, palette: &Palette) {
     let Some(schemes) = &input.schemes else { return };
     let Some(list) = schemes.triangles() else { return };

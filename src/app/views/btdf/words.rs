@@ -1,4 +1,5 @@
-//! The line under the hemispheres: which incident direction is shown, and its transmittance.
+//! Texts of the line under the hemispheres: the incident direction shown and its transmittance τ, or values under the
+//! pointer.
 
 use crate::app::incidence::{Incidence, direction_text};
 use crate::app::paint::tile::Foot;
@@ -8,7 +9,8 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::drawing::ticks::{degrees, number};
 use crate::texts::tiles as say;
 
-/// Returns the text for the incident direction under the pointer, which a click would choose.
+/// Returns the text for the incident direction under the pointer, which a click would choose, and its transmittance
+/// `tau`.
 pub(super) fn pointed_text(d: Incident, tau: f64) -> Foot {
     let (angles, tau) = (direction_text(d.0), number(tau, 3));
     Foot::from([say::incidence_tau(&angles, &tau), format!("{angles} · τ {tau}"), format!("τ {tau}")])
@@ -36,8 +38,8 @@ pub(super) fn selection_text(btdf: &Btdf, incidence: &Incidence) -> Foot {
     ])
 }
 
-/// Returns the direction that the data shown belong to, if the data are of single directions and another one is chosen;
-/// else an empty text.
+/// Returns the incident direction of the data shown as text, if it differs by more than 0.5° from the chosen one
+/// because the data are available for single directions only; otherwise an empty text.
 fn measured_at(btdf: &Btdf, incident: Incident) -> String {
     let Some(Scattered::Directions(data)) = &btdf.scattered else { return String::new() };
     let Some(own) = data.standing_for(incident.0).map(|index| data.incident()[index].0) else { return String::new() };
@@ -47,12 +49,13 @@ fn measured_at(btdf: &Btdf, incident: Incident) -> String {
     say::data_of(direction_text(own))
 }
 
-/// Returns the value drawn for a cell: q, or q times the cell's mean cosine.
+/// Returns the value drawn for an emergent cell: q, or if `weighted` q times the mean cosine of the cell. \[1/sr\]
 pub(super) fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
     if weighted { q * cell.projected_solid_angle() / cell.solid_angle() } else { q }
 }
 
-/// Returns the text for an emergent direction, given by its through direction, and its value.
+/// Returns the text for an emergent direction and its value q or q·cosθ (if `weighted`) \[1/sr\]. `through`: the
+/// direction of undeviated light that emerges in this direction.
 pub(super) fn leaving_text(through: Dir<Facade>, value: f64, weighted: bool) -> Foot {
     let leaving = Emergent::from_through_name(through);
     let (theta, phi) = (degrees(through.theta()), degrees(leaving.0.phi()));

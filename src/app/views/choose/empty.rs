@@ -1,4 +1,5 @@
-//! The ranking tile before anything is ranked: what it would do, and the button that starts it.
+//! The ranking tile before there is a ranking: an explanation, the choice of products, and the button that starts the
+//! ranking.
 
 use super::input::{Action, Input};
 use super::objectives::range;
@@ -8,6 +9,7 @@ use crate::study::rank::figure_words;
 use crate::texts::choose as say;
 use egui::{Align, Button, Label, Layout, ProgressBar, Rect, RichText, ScrollArea, Ui, UiBuilder, vec2};
 
+/// Draws the content of the ranking tile before there is a ranking.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) {
     let layout = Layout::top_down(Align::Min);
     let weak = Palette::of(ui.visuals()).weak;
@@ -34,7 +36,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
     });
 }
 
-/// Draws the progress of the computation, and a button that stops it.
+/// Draws the progress of a running ranking, and a button that stops it.
 pub(super) fn progress(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     let Some(running) = &input.running else { return };
     ui.horizontal(|ui| {

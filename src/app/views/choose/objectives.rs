@@ -1,4 +1,5 @@
-//! Objectives of the ranking: weight and scale limits of each, adding more, and the range of products that are ranked.
+//! Page of the objectives of the ranking: their weights and scale limits, adding of objectives, and the choice of the
+//! products to rank.
 
 use super::input::{Action, Input};
 use crate::app::paint::palette::Palette;
@@ -7,9 +8,10 @@ use crate::study::rank_keys::{BetterKey, ObjectiveKeys};
 use crate::texts::choose as say;
 use egui::{Checkbox, ComboBox, DragValue, Label, Rect, RichText, ScrollArea, Slider, SliderClamping, Ui, UiBuilder};
 
-/// Minimum and maximum weight of an objective.
+/// Minimum and maximum weight of an objective that the slider can set.
 const WEIGHTS: [f64; 2] = [0.1, 5.0];
 
+/// Draws the page of the objectives.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("objectives"), |ui| {
@@ -38,7 +40,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
     });
 }
 
-/// Draws one objective on two lines. Returns `true` if it is to be removed.
+/// Draws one objective in two lines: name and unit, weight and scale limits. `may_go`: whether it may be removed.
+/// Returns `true` if the user removes it.
 fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
     let (name, unit) = figure_words(&one.figure);
     let mut goes = false;
@@ -85,6 +88,7 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
     goes
 }
 
+/// Draws the menu of the figures that can be added as objectives.
 fn more(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     if input.offers.is_empty() {
         return;
@@ -104,7 +108,7 @@ fn more(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     combo.response.on_hover_text(say::ADD_OBJECTIVE_TIP).accessible_name(say::ADD_OBJECTIVE.get());
 }
 
-/// Draws the choice of the products that are ranked, and of the aperture.
+/// Draws the choices of the products that are ranked and of the aperture they are ranked for.
 pub(super) fn range(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     let mut look = Look::clone(input.look);
     ui.horizontal_wrapped(|ui| {

@@ -1,4 +1,4 @@
-//! Two objectives against each other, with the Pareto front emphasised.
+//! Plot of the products' figures for two objectives against each other, with the Pareto front emphasised.
 
 use super::input::{Action, Input};
 use crate::app::paint::palette::Palette;
@@ -9,10 +9,10 @@ use crate::study::rank::{Entry, Look, Shortlist};
 use crate::texts::choose as say;
 use egui::{Align2, FontId, Rect, Stroke, Ui, vec2};
 
-/// Distance within which the pointer selects a point. \[points\]
+/// Maximum distance from the pointer to a product's point that it selects. \[points\]
 const NEAR: f32 = 12.0;
 
-/// Draws the plot. Returns the line under it.
+/// Draws the plot of two objectives. Returns the line under it.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> String {
     let axes = list.axes(input.look);
     let palette = Palette::of(ui.visuals());
@@ -63,7 +63,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     chosen.map_or_else(|| say::PLOT_FOOT.into(), |entry| super::words::entry(list, entry))
 }
 
-/// Draws the name of a point beside it, within the plot.
+/// Draws the name of a product beside its point, within the plot.
 fn label(ui: &Ui, name: &str, at: egui::Pos2, area: Rect, palette: &Palette) {
     let painter = ui.painter();
     let galley = painter.layout_no_wrap(name.to_owned(), FontId::proportional(13.0), palette.ink);

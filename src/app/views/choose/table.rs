@@ -1,4 +1,5 @@
-//! Products in rows: rank, name, score as a bar with its error, and every objective with a bar of its score.
+//! Table of the ranked products: rank, name, score as a bar with its error, and the figure of every objective with a
+//! bar of its utility.
 
 use super::input::{Action, Input, rank_words};
 use super::words;
@@ -13,7 +14,7 @@ use egui::{
 };
 use std::sync::Arc;
 
-/// Height of a row. \[points\]
+/// Height of a row of the table. \[points\]
 const ROW: f32 = 24.0;
 /// Width of the column of ranks. \[points\]
 const RANK: f32 = 48.0;
@@ -23,15 +24,16 @@ const SCORE: f32 = 96.0;
 const FIGURE: f32 = 112.0;
 /// Minimum width of the column of names. \[points\]
 const NAME: f32 = 130.0;
-/// Space between columns. \[points\]
+/// Space between two columns. \[points\]
 const GAP: f32 = 8.0;
 
-/// Returns the height of `rows` rows with their heads. \[points\]
+/// Returns the height of a table of `rows` products, including its head. \[points\]
 pub(super) fn height(rows: usize) -> f32 {
     70.0 + rows as f32 * ROW
 }
 
-/// Horizontal positions of the columns, with as many objectives as there is room for. \[points\]
+/// Horizontal positions (left and right edge) of the columns on the screen, with as many objectives as there is room
+/// for. \[points\]
 struct Columns {
     rank: f32,
     name: [f32; 2],
@@ -55,14 +57,14 @@ impl Columns {
     }
 }
 
-/// Returns text laid out on at most `rows` lines, which end in "…" where there is more.
+/// Returns text laid out in at most `rows` lines of a width \[points\]; longer text is cut with "…".
 fn text(ui: &Ui, words: &str, colour: Color32, width: f32, rows: usize) -> Arc<Galley> {
     let mut job = LayoutJob::simple(words.to_owned(), FontId::proportional(13.0), colour, width);
     job.wrap = TextWrapping { max_width: width.max(1.0), max_rows: rows, ..TextWrapping::default() };
     ui.painter().layout_job(job)
 }
 
-/// Draws the rows that pass the filters.
+/// Draws the table of the products that pass the filters of the display settings.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
     let shown = list.shown(input.look);
     let columns = Columns::of(rect, list.list.figures.len());
@@ -118,7 +120,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     }
 }
 
-/// Draws the names of the columns; a click on one sorts the rows. Returns the lower edge of the names.
+/// Draws the names of the columns; a click on a name sorts the rows by the column. Returns the vertical screen position
+/// of the lower edge of the names \[points\].
 fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) -> f32 {
     let palette = Palette::of(ui.visuals());
     let mut heads = vec![
@@ -164,7 +167,8 @@ fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Sh
     below + 2.0
 }
 
-/// Moves by arrow keys, and chooses by Enter. Returns the row to scroll to.
+/// Executes the keys of this frame: arrow keys select a product, Enter puts it into the room. Returns the index of the
+/// row to scroll to.
 fn keys(ui: &Ui, focus: &Response, shown: &[&Entry], chosen: Option<usize>, out: &mut Vec<Action>) -> Option<usize> {
     if !focus.has_focus() || shown.is_empty() {
         return None;
@@ -187,7 +191,7 @@ fn keys(ui: &Ui, focus: &Response, shown: &[&Entry], chosen: Option<usize>, out:
     })
 }
 
-/// Returns the signs before a product's name: Pareto front, approximate, in the room.
+/// Returns the signs before a product's name: ◆ on the Pareto front, ≈ approximate, ⌂ in the apertures of the scene.
 fn marks(entry: &Entry, in_room: &str) -> String {
     let list = [
         (entry.place == Some(Place::Front), "◆ "),
@@ -197,7 +201,7 @@ fn marks(entry: &Entry, in_room: &str) -> String {
     list.into_iter().filter(|(is, _)| *is).map(|(_, mark)| mark).collect()
 }
 
-/// Returns a row as text.
+/// Returns a row of the table as text for screen readers.
 fn spoken(entry: &Entry) -> String {
     match &entry.excluded {
         Some(reason) => format!("{}: {}", entry.name, say::excluded_because(reason)),
@@ -205,6 +209,7 @@ fn spoken(entry: &Entry) -> String {
     }
 }
 
+/// Draws the row (index `k`) of one product: rank, name, score and the figures of the objectives.
 fn row(
     ui: &mut Ui,
     id: Id,
@@ -274,7 +279,8 @@ fn row(
     response.on_hover_text(tip)
 }
 
-/// Draws the score of a product as a bar, and its error as a whisker.
+/// Draws the score of a product, 0 … 1, as a bar between two horizontal positions, and its error as a whisker. `pale`:
+/// whether the product is excluded or preliminary.
 fn bar(ui: &Ui, rect: Rect, [left, right]: [f32; 2], entry: &Entry, pale: bool, palette: &Palette) {
     let x = |share: f64| left + (right - left - 6.0) * share.clamp(0.0, 1.0) as f32;
     let place = Rect::from_x_y_ranges(left..=x(1.0), rect.top() + 6.0..=rect.bottom() - 6.0);

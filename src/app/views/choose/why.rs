@@ -1,5 +1,5 @@
-//! The selected product of a ranking: buttons to set it in the room or compare it, and the reason for its rank in parts
-//! that add up.
+//! The selected product of a ranking: buttons to put it into the room or the comparison, and the explanation of its
+//! difference in score from another product as a sum of terms.
 
 use super::input::{Action, Input};
 use super::words;
@@ -8,9 +8,10 @@ use crate::study::rank::{Entry, Look, Shortlist};
 use crate::texts::choose as say;
 use egui::{Button, ComboBox, FontId, Label, Rect, RichText, Sense, Ui, UiBuilder};
 
-/// Minimum difference in score for which a term gets a line.
+/// Minimum contribution to the difference in score for which a term of the explanation is shown.
 const LEAST: f64 = 5e-4;
 
+/// Draws buttons and explanation for the selected product.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
     let chosen = input.look.product.as_ref().and_then(|product| list.entry(product));
     let palette = Palette::of(ui.visuals());
@@ -24,7 +25,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist,
     });
 }
 
-/// Returns the lines on a product; `true` marks those in the weak colour.
+/// Returns the lines that explain the rank of a product, each with whether it is drawn in the colour of secondary text.
 fn explanation(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(String, bool)> {
     if let Some(reason) = &entry.excluded {
         return vec![(say::excluded_because(reason), false)];
@@ -42,7 +43,7 @@ fn explanation(input: &Input<'_>, list: &Shortlist, entry: &Entry) -> Vec<(Strin
     all
 }
 
-/// Draws as many whole lines as there is room for, and all of them in the tooltip.
+/// Draws as many complete lines as there is room for; the tooltip shows all of them.
 fn lines(ui: &mut Ui, all: &[(String, bool)]) {
     let palette = Palette::of(ui.visuals());
     let full = ui.available_rect_before_wrap();
@@ -60,6 +61,7 @@ fn lines(ui: &mut Ui, all: &[(String, bool)]) {
     ui.interact(full, ui.scope_id().with("all of why"), Sense::HOVER).on_hover_text(whole.join("\n"));
 }
 
+/// Draws the buttons for the selected product, and the choice of the product it is compared with.
 fn buttons(ui: &mut Ui, input: &Input<'_>, list: &Shortlist, entry: &Entry, out: &mut Vec<Action>) {
     let enabled = entry.excluded.is_none();
     let product = || entry.product.clone();

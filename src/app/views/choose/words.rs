@@ -1,4 +1,4 @@
-//! Figures of products as text.
+//! Figures, scores and explanations of a ranking as text.
 
 use super::input::{Due, Running, rank_words};
 use crate::compute::estimate::Estimate;
@@ -6,7 +6,8 @@ use crate::drawing::ticks::number;
 use crate::study::rank::{Entry, Reason, Shortlist, Term, figure_words};
 use crate::texts::{choose as say, fixed};
 
-/// Returns value and error, in % for a share; without the unit, which stands in the column's head.
+/// Returns value and error of a figure as text: a share in %, others without their unit, which the head of the column
+/// contains.
 pub(super) fn value(unit: &str, figure: Estimate) -> String {
     if unit == "%" {
         // An error too small for the value's digits is not shown as 0.
@@ -16,7 +17,7 @@ pub(super) fn value(unit: &str, figure: Estimate) -> String {
     }
 }
 
-/// Returns a value without error, with its unit.
+/// Returns a value with its unit, without its error, as text; a share in %.
 fn bare(unit: &str, value: f64) -> String {
     if unit == "%" {
         format!("{} %", fixed(100.0 * value, 1))
@@ -34,7 +35,8 @@ pub(super) fn score(entry: &Entry) -> String {
     say::score(fixed(entry.score.value, 3), fixed(entry.score.error, 3))
 }
 
-/// Returns the sentence above the terms: the difference in score from the other product.
+/// Returns the sentence before the terms of an explanation: the difference in score from the other product, and whether
+/// it exceeds the uncertainty.
 pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
     let other = &list.entries[reason.other].name;
     let score = fixed(reason.score_difference.abs(), 3);
@@ -46,7 +48,8 @@ pub(super) fn head(list: &Shortlist, reason: &Reason) -> String {
     }
 }
 
-/// Returns a term as text: `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
+/// Returns a term of an explanation as text, i.e. the part of the difference in score that is due to one objective:
+/// `+0.120 by Lighting energy: 4.1 against 9.3 kWh/m² (of it −3.2 in winter, no sun, rear)`.
 pub(super) fn term(list: &Shortlist, term: &Term) -> String {
     let (name, unit) = figure_words(&list.list.figures[term.objective]);
     let score = signed(fixed(term.score_difference, 3), term.score_difference);
@@ -60,7 +63,7 @@ pub(super) fn term(list: &Shortlist, term: &Term) -> String {
     if parts.is_empty() { text } else { format!("{text} ({})", parts.join("; ")) }
 }
 
-/// Returns the progress as text: `34 of 113 products, 12 s left`.
+/// Returns the progress of a ranking as text: `34 of 113 products, 12 s left`.
 pub(super) fn running(running: &Running) -> String {
     let all =
         if running.coarse { say::by_cells(running.done, running.all) } else { say::done(running.done, running.all) };
@@ -70,7 +73,7 @@ pub(super) fn running(running: &Running) -> String {
     }
 }
 
-/// Returns label and tooltip of the button that computes what is due.
+/// Returns label and tooltip of the button that computes the ranking (again) for a reason; `None` for none.
 pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
     match due {
         Due::Nothing => None,
@@ -80,7 +83,7 @@ pub(super) fn due(due: Due) -> Option<(&'static str, String)> {
     }
 }
 
-/// Returns a product with rank, score and all its figures on one line.
+/// Returns name, rank, score and all figures of a product as one line of text.
 pub(super) fn entry(list: &Shortlist, entry: &Entry) -> String {
     let mut text = format!("{} · {} · {}", entry.name, say::rank_is(rank_words(entry.ranks)), score(entry));
     for (key, figure) in list.list.figures.iter().zip(&entry.figures) {

@@ -1,35 +1,35 @@
-//! Editing the points of a control curve: dragged with the pointer, or with the keys while the chart has the keyboard.
+//! Editing of the points of a control curve: by dragging, or by keys while the control diagram has the keyboard focus.
 //!
-//! Profile angles snap to whole degrees and stay between their neighbours; values snap to the states' (with Shift held:
-//! to whole numbers). A double click on the line adds a point, a right click removes one; beside the line drags and
-//! double clicks are the view's. Keys: `,` and `.` choose a point, arrows move it, Insert or + adds one after it,
-//! Delete removes it.
+//! Profile angles snap to whole degrees and remain between those of the neighbouring points; values snap to those of
+//! the states, with Shift held to whole numbers. A double click on the curve adds a point, a right click removes one;
+//! drags and double clicks beside the curve change the ranges of the axes. Keys: `,` and `.` select a point, arrows
+//! move it, Insert or + adds one after it, Delete removes it.
 
 use super::input::{Input, curve_at, extent};
 use crate::app::paint::plot::{Shown, screen};
 use egui::{EventFilter, Id, Key, Modifiers, Pos2, Ui};
 use egui_plot::PlotTransform;
 
-/// Distance within which the pointer selects a point. \[points\]
+/// Maximum distance from the pointer to a point of the curve that it selects. \[points of the screen\]
 const REACH: f32 = 10.0;
-/// Minimum distance between neighbouring points. \[°\]
+/// Minimum difference of profile angle between neighbouring points of the curve. \[°\]
 const GAP: f64 = 1.0;
 
-/// State of the editing: the point that is selected, and whether it is dragged.
+/// State of the editing between frames: the selected point, and whether it is being dragged.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Editing {
-    /// Index of the selected point, marked in the picture and moved by the keys.
+    /// Index of the selected point of the curve, which is marked in the diagram and moved by keys.
     pub chosen: Option<usize>,
     dragged: bool,
 }
 
-/// Returns the index of the curve's point near a place on the screen.
+/// Returns the index of the point of a curve nearest to a screen position within [`REACH`]; `None` if there is none.
 fn near(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> Option<usize> {
     let distance = |k: usize| screen(transform, curve[k]).distance(at);
     (0..curve.len()).filter(|&k| distance(k) <= REACH).min_by(|&a, &b| distance(a).total_cmp(&distance(b)))
 }
 
-/// Whether a place on the screen is on the curve or its ends' continuation.
+/// Whether a screen position is on the curve, or on its horizontal continuation beyond its ends, within [`REACH`].
 fn on_line(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> bool {
     // On a steep part the line is far above or below a place right beside it.
     let heights = [-0.5, 0.0, 0.5].map(|aside| {
@@ -41,7 +41,8 @@ fn on_line(transform: &PlotTransform, curve: &[[f64; 2]], at: Pos2) -> bool {
     (top - REACH..=bottom + REACH).contains(&at.y)
 }
 
-/// Whether the pointer is on a part of the curve, so that the view must stay where it is.
+/// Whether the pointer is on the curve of the plot `id` or drags a point, so that a drag must not change the ranges of
+/// the axes.
 pub fn held(ui: &Ui, id: Id, input: &Input<'_>, editing: &Editing) -> bool {
     let pointer = ui.input(|i| i.pointer.press_origin().or(i.pointer.latest_pos()));
     let before = Shown::transform_before(ui, id);
@@ -51,13 +52,14 @@ pub fn held(ui: &Ui, id: Id, input: &Input<'_>, editing: &Editing) -> bool {
     input.editable && (editing.dragged || on_curve)
 }
 
-/// Returns the value of the nearest state.
+/// Returns the value of the state that is nearest to a value, both in the unit of the states.
 fn snapped(input: &Input<'_>, value: f64) -> f64 {
     let states = input.states.iter().map(|state| state.value);
     states.min_by(|a, b| (a - value).abs().total_cmp(&(b - value).abs())).unwrap_or(value)
 }
 
-/// Returns the curve with a point at another place, kept between its neighbours and on the chart's axis.
+/// Returns the curve with the point `index` moved to a profile angle \[°\] and a value; the angle is limited to that
+/// between the neighbouring points and to 0 … 90°.
 fn moved(curve: &[[f64; 2]], index: usize, [angle, value]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut curve = curve.to_vec();
     let low = if index > 0 { curve[index - 1][0] + GAP } else { 0.0_f64.min(curve[index][0]) };
@@ -66,8 +68,8 @@ fn moved(curve: &[[f64; 2]], index: usize, [angle, value]: [f64; 2]) -> Vec<[f64
     curve
 }
 
-/// Returns the curve with one more point, on the line at a profile angle \[°\], and the index of that point; `None` if
-/// there is no room for it.
+/// Returns the curve with a point added on it at a profile angle \[°\], and the index of that point; `None` if another
+/// point is too near or the angle is outside 0 … 90°.
 fn with_point(curve: &[[f64; 2]], angle: f64) -> Option<(Vec<[f64; 2]>, usize)> {
     let angle = angle.round();
     let value = curve_at(curve, angle)?;
@@ -80,7 +82,7 @@ fn with_point(curve: &[[f64; 2]], angle: f64) -> Option<(Vec<[f64; 2]>, usize)> 
     })
 }
 
-/// Returns the curve with a point removed; `None` if it is the last one.
+/// Returns the curve with the point `index` removed; `None` if it is the only one.
 fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
     (curve.len() > 1 && index < curve.len()).then(|| {
         let mut curve = curve.to_vec();
@@ -89,7 +91,8 @@ fn without(curve: &[[f64; 2]], index: usize) -> Option<Vec<[f64; 2]>> {
     })
 }
 
-/// Applies pointer and keys to the curve. Returns the new curve if it changed, and whether the click was meant for it.
+/// Executes pointer and keys of this frame on the curve. Returns the new curve if it changed, and whether a click was
+/// used for it.
 pub fn edit(
     ui: &Ui,
     Shown { response, transform, .. }: &Shown,
@@ -151,7 +154,7 @@ pub fn edit(
     (new.filter(|new| new != curve), taken)
 }
 
-/// Applies the keys of this frame to the curve. Returns the new curve.
+/// Executes the keys of this frame on the curve. Returns the new curve if it changed.
 fn by_keys(ui: &Ui, input: &Input<'_>, editing: &mut Editing) -> Option<Vec<[f64; 2]>> {
     let curve = input.curve;
     let last = curve.len().checked_sub(1)?;

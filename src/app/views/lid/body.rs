@@ -1,4 +1,5 @@
-//! The light of an aperture as a 3D body: its radius in every direction is the intensity, with its true peak marked.
+//! The luminous intensity distribution of an aperture as a 3D body (photometric solid): its radius in every direction
+//! is the intensity; the largest intensity is marked.
 
 use super::scaling::{Scaling, towards};
 use crate::app::paint::body::Body;
@@ -15,16 +16,16 @@ use egui::{Rect, Sense, Shape, Stroke, Ui};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
-/// Step of γ and of C. \[°\]
+/// Step of the angles γ and C between nodes of the body. \[°\]
 const STEP: u16 = 3;
-/// Numbers of steps of γ and of C.
+/// Numbers of steps of γ, 0 … 180°, and of C, 0 … 360°.
 const STEPS: [usize; 2] = [180 / STEP as usize, 360 / STEP as usize];
-/// Camera at a first start: from the side, a little from above.
+/// First camera: from the side, a little from above.
 const FIRST: Camera = Camera::from(-0.45, 0.3);
-/// Distance within which the cursor selects a node. \[points\]
+/// Maximum distance from the pointer to a node that it selects. \[points\]
 const REACH: f32 = 14.0;
 
-/// State of this picture between frames.
+/// Camera and cached body between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -37,29 +38,30 @@ impl Default for State {
     }
 }
 
-/// Input of the picture.
+/// Input of the 3D body in one frame.
 pub(super) struct Input<'a> {
-    /// Luminous intensity distribution.
+    /// Luminous intensity distribution of an aperture.
     pub lid: &'a Lid,
     /// Largest intensities of the distribution; `None` until they are computed.
     pub peaks: Option<&'a Peaks>,
-    /// Number that changes with `lid`.
+    /// Revision number of `lid`, which changes whenever the result does.
     pub revision: u64,
-    /// Form in which intensities are stated.
+    /// Statement of intensities for the whole aperture or per square metre.
     pub scaling: Scaling,
 }
 
-/// Returns C and γ of a node. \[rad\]
+/// Returns the angles C and γ of a node of the body, by its index. \[rad\]
 fn angles(node: usize) -> (f64, f64) {
     (TAU * (node % STEPS[1]) as f64 / STEPS[1] as f64, PI * (node / STEPS[1]) as f64 / STEPS[0] as f64)
 }
 
-/// Returns an emergent direction in the room frame: x along the façade, y into the room, z up.
+/// Returns an emergent direction of an aperture as a vector in the room frame (x along the façade, y into the room, z
+/// up).
 fn into_room(surface: Surface, to: Emergent) -> DVec3 {
     surface.room_from_facade(to.0.vector())
 }
 
-/// Intensities relative to the largest of them, as a body.
+/// 3D body of intensities, scaled so that the largest one is 1.
 #[derive(Debug, Clone)]
 struct Solid {
     body: Body,
@@ -85,7 +87,7 @@ impl Solid {
     }
 }
 
-/// Draws the body. Returns text for the node under the cursor.
+/// Draws the body. Returns the line for the node under the pointer.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, state: &mut State) -> Option<Foot> {
     let palette = Palette::of(ui.visuals());
     let response = ui.interact(rect, ui.scope_id().with("body"), Sense::click_and_drag());

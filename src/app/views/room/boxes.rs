@@ -1,5 +1,5 @@
-//! Obstructions moved and resized with the pointer: they stay outside the room and touch it where they are pushed
-//! against it.
+//! Boxes of obstructions moved and resized by pointer or keys: they remain outside the room, and touch it if they are
+//! pushed against it.
 
 use super::input::Frame;
 use super::outside::{outline, room, solid};
@@ -8,12 +8,13 @@ use crate::study::scene_file::BoxKeys;
 use crate::texts::{Text, tiles as say};
 use egui::Pos2;
 
-/// Minimum size of a box. \[m\]
+/// Minimum size of a box along each axis. \[m\]
 const LEAST: f64 = 0.01;
 /// Tolerance for lengths typed as decimals, which do not add up exactly. \[m\]
 const SLACK: f64 = 1e-6;
 
-/// Returns the name of a face of a box, by the axis across it.
+/// Returns the name of a face of a box. `axis`: axis perpendicular to the face, 0 x, 1 y, 2 z; `far`: whether it is the
+/// face at the larger coordinate.
 pub(super) const fn face_word(axis: usize, far: bool) -> Text {
     match (axis, far) {
         (0, false) => say::LEFT_EDGE,
@@ -25,12 +26,13 @@ pub(super) const fn face_word(axis: usize, far: bool) -> Text {
     }
 }
 
-/// Whether a box is parallel to the room's axes, as seen from the side.
+/// Whether a box is parallel to the axes of the room, i.e. not rotated about the vertical.
 fn is_straight(keys: &BoxKeys) -> bool {
     keys.turn.rem_euclid(360.0) == 0.0
 }
 
-/// Returns the faces that may be dragged in a picture: axis, whether it is the far face, its middle on the screen.
+/// Returns the faces of a box that can be dragged in a picture: axis perpendicular to the face, whether it is the face
+/// at the larger coordinate, and screen position of its middle.
 pub(super) fn faces(keys: &BoxKeys, frame: &Frame) -> Vec<(usize, bool, Pos2)> {
     let corners = outline(keys, frame.side);
     let middle = |a: usize, b: usize| {
@@ -53,7 +55,8 @@ pub(super) fn faces(keys: &BoxKeys, frame: &Frame) -> Vec<(usize, bool, Pos2)> {
     list
 }
 
-/// Returns a displacement in the room's axes, given along the depth and across it. \[m\]
+/// Returns a displacement along x, y and z of the room \[m\], given in a picture along the depth (y) and across it (z
+/// if the room is seen from the side, otherwise x) \[m\].
 const fn in_room([depth, across]: [f64; 2], side: bool) -> [f64; 3] {
     if side { [0.0, depth, across] } else { [across, depth, 0.0] }
 }
@@ -62,8 +65,8 @@ fn is_outside(keys: &BoxKeys, size: [f64; 3]) -> bool {
     !solid(keys).overlaps(&room(size), SLACK)
 }
 
-/// Returns the wall that a box stands in front of, as axis and side: the first wall beyond which the whole box lies.
-/// The box is pushed against it.
+/// Returns the wall of the room against which a box is pushed, i.e. the first wall beyond which the whole box lies: the
+/// axis perpendicular to it, and whether it is the wall at the larger coordinate. `size` of the room \[m\].
 fn stands_before(keys: &BoxKeys, size: [f64; 3]) -> Option<(usize, bool)> {
     let corners = solid(keys).corners();
     let least = |axis: usize| corners.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
@@ -76,7 +79,9 @@ fn stands_before(keys: &BoxKeys, size: [f64; 3]) -> Option<(usize, bool)> {
     )
 }
 
-/// Returns a box moved along the depth and across it; it stays against the wall that it would be pushed through.
+/// Returns a box moved by `way` \[m\] along the depth and across it, see [`in_room`], with coordinates rounded to
+/// `step` \[m\]; it stops at the wall of the room that it would be pushed through. `size` of the room \[m\]; `None` if
+/// the box cannot be moved.
 pub(super) fn moved(keys: &BoxKeys, way: [f64; 2], step: f64, size: [f64; 3], side: bool) -> Option<BoxKeys> {
     let mut new = *keys;
     for (axis, way) in in_room(way, side).into_iter().enumerate() {
@@ -109,7 +114,8 @@ pub(super) fn moved(keys: &BoxKeys, way: [f64; 2], step: f64, size: [f64; 3], si
     is_outside(&new, size).then_some(new)
 }
 
-/// Returns a box with one of its faces moved along the depth and across it; the opposite face stays.
+/// Returns a box with one face, given as by [`faces`], moved by `way` \[m\] along the depth and across it; the opposite
+/// face remains. Other parameters as in [`moved`].
 pub(super) fn resized(
     keys: &BoxKeys,
     (axis, far): (usize, bool),

@@ -1,4 +1,5 @@
-//! The room from the side: apertures, the sensor plane in the colours of its row, a scale.
+//! The section of the room, as seen from the side: apertures, the sensor plane in the colours of a row of sensor
+//! points, a scale.
 
 use super::input::{Frame, Input};
 use super::marks::scale_bar;
@@ -7,10 +8,10 @@ use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::Palette;
 use egui::{Rect, Stroke, StrokeKind, Ui, vec2};
 
-/// Height of the strip of colours that represents the sensor plane. \[points\]
+/// Height of the coloured strip that represents the sensor plane. \[points\]
 const STRIP: f32 = 6.0;
 
-/// Draws the section.
+/// Draws the section of the room. `row`: index, counted along x, of the row of sensor points shown.
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, scale: &ColourScale, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_filled(frame.area, 0, palette.face);

@@ -1,5 +1,5 @@
-//! The ground outside with the sun's shade on it, in section and perspective; there is none without obstructions and
-//! storey.
+//! The ground outside with the shadows of building and obstructions on it, in section and perspective; it is not drawn
+//! for a room on the ground without obstructions.
 
 use super::input::{Frame, Input};
 use super::outside;
@@ -13,22 +13,23 @@ use egui::epaint::PathStroke;
 use egui::{Color32, Painter, Rect, Sense, Shape, Stroke, Ui, vec2};
 use glam::{DVec2, DVec3};
 
-/// Thickness of the ground in the section. \[points\]
+/// Thickness of the strip that represents the ground in the section. \[points\]
 const THICKNESS: f32 = 7.0;
-/// Shortest stretch of shade that is named. \[m\]
+/// Minimum length of a shaded stretch of the ground that the text names. \[m\]
 const NAMED: f64 = 0.05;
 
-/// Returns the position of a row of sensor points along x; the middle of the room without rows. \[m\]
+/// Returns the x coordinate of a row of sensor points, by its index; that of the middle of the room without rows. \[m\]
 fn across(input: &Input<'_>, row: usize) -> f64 {
     (row as f64 + 0.5) / input.nx.max(1) as f64 * input.room[0]
 }
 
-/// Returns the colour of the ground where nothing shades it.
+/// Returns the colour of the ground outside shadows.
 fn open(ground: &GroundShade, palette: &Palette) -> Color32 {
     if ground.is_sunny { palette.sunlit } else { palette.grid }
 }
 
-/// Returns the stretches of the ground in front of the façade that lie in shade at `x` \[m\], as a sentence.
+/// Returns a sentence on the stretches of the ground in front of the façade that are shaded, by their distances from
+/// the façade, in the section at `x` \[m\].
 pub(super) fn words(ground: &GroundShade, x: f64) -> String {
     if !ground.is_sunny {
         return say::GROUND_WITHOUT_SUN.into();
@@ -40,7 +41,8 @@ pub(super) fn words(ground: &GroundShade, x: f64) -> String {
     if list.is_empty() { say::GROUND_SUNLIT.into() } else { say::ground_shaded(list.join("; ")) }
 }
 
-/// Draws the ground from the side, shaded where it is along a row of sensors.
+/// Draws the ground in the section, with its shaded stretches in the plane of a row of sensor points, given by its
+/// index.
 pub(super) fn section(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, palette: &Palette) {
     let Some(ground) = input.ground else { return };
     let top = frame.screen(0.0, ground.height).y;
@@ -64,7 +66,8 @@ pub(super) fn section(ui: &Ui, frame: &Frame, input: &Input<'_>, row: usize, pal
     response.on_hover_text(text);
 }
 
-/// Returns the rectangle round the room and the obstructions near it: from and to in x and y. \[m\]
+/// Returns the rectangle of the ground that the perspective shows, round the room and the obstructions near it: lowest
+/// and highest coordinate in x and in y. \[m\]
 fn limits(input: &Input<'_>) -> [[f64; 2]; 2] {
     let room = outside::room(input.room);
     let corners = outside::near(input).flat_map(|solid| solid.corners()).chain(room.corners());
@@ -73,8 +76,8 @@ fn limits(input: &Input<'_>) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| [low[axis] - reach, high[axis] + reach])
 }
 
-/// Draws the ground in perspective, as far as it lies round the room. Everything drawn later covers it: the viewpoint
-/// is above the ground, or the ground is left out.
+/// Draws the ground near the room in perspective, with the shadows on it. It must be drawn first, since everything else
+/// is in front of it; it is left out if the viewpoint is below the ground.
 pub(super) fn perspective(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     let Some(ground) = input.ground.filter(|ground| view.eye.z > ground.height) else { return };
     let [[a, b], [c, d]] = limits(input);
@@ -99,7 +102,8 @@ pub(super) fn perspective(painter: &Painter, view: &View, input: &Input<'_>, pal
     show(&whole, Color32::TRANSPARENT, PathStroke::new(1.0, palette.outline));
 }
 
-/// Returns the stretches in front of the middle of the room that lie in shade, as a sentence; `None` without ground.
+/// Returns a sentence on the shaded stretches of the ground in front of the middle of the room, see [`words`]; `None`
+/// if the ground is not drawn.
 pub(super) fn words_of_middle(input: &Input<'_>) -> Option<String> {
     input.ground.map(|ground| words(ground, 0.5 * input.room[0]))
 }

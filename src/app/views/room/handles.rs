@@ -1,4 +1,5 @@
-//! Apertures, sensor plane and sensor points moved with the pointer or, with the keyboard on them, by arrow keys.
+//! Handles of apertures, sensor plane, sensor points and obstructions, by which these are moved with the pointer or,
+//! while a handle has the keyboard focus, by arrow keys.
 
 use super::boxes;
 use super::input::{Action, Frame, Input, Opening};
@@ -12,29 +13,31 @@ use egui::{
     Align2, CursorIcon, EventFilter, FontId, Id, Key, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, vec2,
 };
 
-/// Minimum edge of an aperture. \[m\]
+/// Minimum width and height of an aperture. \[m\]
 const LEAST: f64 = 0.05;
-/// Half of the size of the area round a handle where it can be grabbed. \[points\]
+/// Half the width and height of the area of a handle in which it can be grabbed. \[points\]
 const REACH: f32 = 6.0;
 
-/// Object that is moved.
+/// Object, or part of it, that a handle moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 enum Part {
-    /// Edge of an aperture along one of its axes; `far`: whether it is the far edge.
+    /// Edge of an aperture: index of the aperture, axis of the aperture perpendicular to the edge, and whether it is
+    /// the edge at the larger coordinate.
     Edge { opening: usize, axis: usize, far: bool },
-    /// Aperture as a whole.
+    /// Whole aperture, by its index.
     Opening(usize),
-    /// Sensor plane.
+    /// Height of the sensor plane.
     Plane,
-    /// Listed sensor point.
+    /// Listed sensor point, by its index.
     Point(usize),
-    /// Obstruction as a whole.
+    /// Whole box of an obstruction, by its index.
     Solid(usize),
-    /// Face of an obstruction across one of its axes; `far`: whether it is the far face.
+    /// Face of an obstruction's box: index of the box, axis perpendicular to the face, and whether it is the face at
+    /// the larger coordinate.
     Face { solid: usize, axis: usize, far: bool },
 }
 
-/// Handle that is dragged, with its object as it was at the start.
+/// Handle that is being dragged, with its object as it was at the start of the drag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Held {
     id: Id,
@@ -42,14 +45,15 @@ pub struct Held {
     start: Action,
 }
 
-/// Area in which an object can be grabbed.
+/// Handle: object to move, area on the screen in which it can be grabbed, and its name.
 struct Handle {
     part: Part,
     place: Rect,
     name: String,
 }
 
-/// Returns the axes of an aperture that run along the depth and across it in a picture.
+/// Returns the axes of an aperture that run in a picture along the depth of the room and across it. `surface` of the
+/// aperture; `side`: whether the room is seen from the side.
 const fn axes(surface: Surface, side: bool) -> [Option<usize>; 2] {
     match (surface, side) {
         (Surface::Facade, false) => [None, Some(0)],
@@ -59,7 +63,7 @@ const fn axes(surface: Surface, side: bool) -> [Option<usize>; 2] {
     }
 }
 
-/// Returns the lengths of a surface along an aperture's axes. \[m\]
+/// Returns the size of a surface of the room along the two axes of its apertures. \[m\]
 const fn extent(surface: Surface, room: [f64; 3]) -> [f64; 2] {
     match surface {
         Surface::Facade => [room[0], room[2]],
@@ -78,7 +82,8 @@ const fn edge_word(surface: Surface, axis: usize, far: bool) -> Text {
     }
 }
 
-/// Returns an aperture with an edge, or all of it, moved along its axes. \[m\]
+/// Returns an aperture moved by `way` \[m\] along its two axes, or with only one edge moved, with coordinates rounded
+/// to `step` \[m\] and inside its surface. `room`: size of the room \[m\].
 fn moved(part: Part, start: Opening, way: [f64; 2], step: f64, room: [f64; 3]) -> Opening {
     let (mut new, extent) = (start, extent(start.surface, room));
     match part {
@@ -109,8 +114,8 @@ fn overlap(a: &Opening, b: &Opening) -> bool {
     a.surface == b.surface && along(0) && along(1)
 }
 
-/// Returns handles of the obstructions, the small ones over the large, and those of their faces over all of them: of
-/// visible ones, or of `all`, since what is dragged may leave the picture.
+/// Returns the handles of the obstructions' boxes in the order of drawing: boxes from the largest to the smallest, then
+/// faces. `all`: whether to include handles outside the picture, since a dragged object may leave it.
 fn solids(input: &Input<'_>, frame: &Frame, all: bool) -> Vec<Handle> {
     let bodies = input.outside.iter().enumerate().filter_map(|(number, (keys, name))| {
         let place = outside::bounds(keys, frame).expand(2.0);
@@ -135,6 +140,7 @@ fn solids(input: &Input<'_>, frame: &Frame, all: bool) -> Vec<Handle> {
     list
 }
 
+/// Returns all handles of a picture in the order of drawing. `held`: whether one is being dragged.
 fn handles(input: &Input<'_>, frame: &Frame, held: bool) -> Vec<Handle> {
     let mut list = solids(input, frame, held);
     if let Some(z) = input.plane_z.filter(|_| frame.side) {
@@ -173,7 +179,8 @@ fn handles(input: &Input<'_>, frame: &Frame, held: bool) -> Vec<Handle> {
     list
 }
 
-/// Returns the current state of an object, as an action that leaves it as it is.
+/// Returns the current position of an object, as a request that would leave it there; `None` if there is no such
+/// object.
 fn present(part: Part, input: &Input<'_>) -> Option<Action> {
     match part {
         Part::Edge { opening: number, .. } | Part::Opening(number) => {
@@ -187,7 +194,8 @@ fn present(part: Part, input: &Input<'_>) -> Option<Action> {
     }
 }
 
-/// Returns the action that moves an object along the depth and across it. \[m\]
+/// Returns the request that moves an object by `way` \[m\] along the depth and across it in a picture, from its
+/// position `start`, with coordinates rounded to `step` \[m\]; `None` if it cannot be moved.
 fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>, side: bool) -> Option<Action> {
     match start {
         Action::OpeningMoved(number, opening) => {
@@ -222,7 +230,7 @@ fn target(part: Part, start: Action, way: [f64; 2], step: f64, input: &Input<'_>
     }
 }
 
-/// Returns position and size of an object in metres, as text.
+/// Returns position (and size) of an object in metres as text.
 fn metres(part: Part, at: Action) -> String {
     match (part, at) {
         (Part::Edge { axis, .. }, Action::OpeningMoved(_, one)) => {
@@ -250,7 +258,7 @@ fn metres(part: Part, at: Action) -> String {
     }
 }
 
-/// Returns the displacement that arrow keys ask for, in steps along the depth and across it.
+/// Returns the displacement by the arrow keys of this frame, as numbers of steps along the depth and across it.
 fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
     if !response.has_focus() {
         return [0.0; 2];
@@ -262,7 +270,8 @@ fn keys(ui: &Ui, response: &Response, side: bool) -> [f64; 2] {
     [pressed(Key::ArrowRight) - pressed(Key::ArrowLeft), if side { up } else { -up }]
 }
 
-/// Offers all handles of a picture, over what is drawn already; `held` is kept from frame to frame.
+/// Draws all handles of a picture, and adds the requests of the user to `actions`. `held`: dragged handle, stored
+/// between frames.
 pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Option<Held>, actions: &mut Vec<Action>) {
     let palette = Palette::of(ui.visuals());
     for Handle { part, place, name } in handles(input, frame, held.is_some()) {
@@ -329,7 +338,7 @@ pub(super) fn show(ui: &mut Ui, input: &Input<'_>, frame: &Frame, held: &mut Opt
     }
 }
 
-/// Draws text beside a handle, inside the picture.
+/// Draws text beside a handle (`place`), inside the area of the picture.
 fn label(ui: &Ui, place: Rect, text: &str, area: Rect, palette: &Palette) {
     let galley = ui.painter().layout_no_wrap(text.to_owned(), FontId::proportional(13.0), palette.ink);
     let size = galley.size() + vec2(8.0, 4.0);

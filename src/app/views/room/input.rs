@@ -1,4 +1,4 @@
-//! Input and actions of the room tile.
+//! Input of the room tile, requests of its user, and the mapping between room and screen.
 
 use crate::app::paint::tile::Status;
 use crate::app::room_look::{RoomLook, RoomView};
@@ -10,31 +10,31 @@ use crate::study::scene_file::BoxKeys;
 use crate::texts::Text;
 use egui::{Pos2, Rect, pos2, vec2};
 
-/// Result at one sensor point, in the unit of the input.
+/// Result at one sensor point, in the unit of [`Input::quantity`]: illuminance \[lx\] or daylight factor \[%\].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CellValue {
-    /// Total of direct and interreflected component.
+    /// Sum of direct and interreflected component.
     pub total: f64,
     /// Estimated absolute error of `total`.
     pub error: f64,
-    /// Direct component, from the apertures.
+    /// Direct component, i.e. light from the apertures without interreflection.
     pub direct: f64,
-    /// Interreflected component.
+    /// Component interreflected in the room.
     pub inter: f64,
-    /// Part of `direct` that comes from the sun's beams.
+    /// Part of `direct` that is due to undeviated or specularly redirected beams of the sun.
     pub beam: f64,
-    /// Part of `error` that is due to the uncertainty of the data.
+    /// Part of `error` that is due to the uncertainty of the scattering data.
     pub data_error: f64,
 }
 
-/// Aperture as a rectangle of its surface.
+/// Aperture as a rectangle in its surface of the room.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opening {
-    /// Surface that holds the aperture: façade or roof.
+    /// Surface in which the aperture lies: façade or roof.
     pub surface: Surface,
     /// Lower-left corner: (x, z) on the façade, (x, y) on the roof. \[m\]
     pub origin: [f64; 2],
-    /// Size in the same order as `origin`. \[m\]
+    /// Size along the same axes as `origin`. \[m\]
     pub size: [f64; 2],
 }
 
@@ -44,7 +44,8 @@ pub enum Quantity {
     /// Illuminance. \[lx\]
     #[default]
     Illuminance,
-    /// Daylight factor: share of the unobstructed horizontal illuminance outside. \[%\]
+    /// Daylight factor: illuminance as a share of the horizontal illuminance outside under the unobstructed overcast
+    /// sky. \[%\]
     DaylightFactor,
 }
 
@@ -65,7 +66,7 @@ impl Quantity {
         }
     }
 
-    /// Returns a value with its unit as text.
+    /// Returns a value of the quantity with its unit as text.
     pub fn format(self, value: f64) -> String {
         match self {
             Self::Illuminance => si(value, "lx"),
@@ -74,47 +75,50 @@ impl Quantity {
     }
 }
 
-/// Input of the tile.
+/// Input of the room tile in one frame.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<'a> {
     /// Size of the room: width (x), depth (y), height (z). \[m\]
     pub room: [f64; 3],
-    /// Apertures: windows and rooflights.
+    /// Apertures of the room: windows in the façade, rooflights in the roof.
     pub apertures: &'a [Opening],
-    /// Obstructions, each with its name.
+    /// Boxes of the obstructions outside, each with its name.
     pub outside: &'a [(BoxKeys, String)],
-    /// Ground outside with the sun's shade on it; `None` where there is nothing outside above ground at the floor.
+    /// Ground outside with the shadows on it; `None` if it is not drawn, e.g. for a room on the ground without
+    /// obstructions.
     pub ground: Option<&'a GroundShade>,
-    /// Number of sensor points along x.
+    /// Number of sensor points of the sensor plane along x.
     pub nx: usize,
-    /// Number of sensor points along y.
+    /// Number of sensor points of the sensor plane along y.
     pub ny: usize,
-    /// Results at the centres of the cells, x running fastest, or at the listed points; empty before the first result.
+    /// Results at the points of the sensor plane, i.e. at the centres of its nx × ny cells with x varying fastest, or
+    /// at the listed points; empty before the first result.
     pub cells: &'a [CellValue],
-    /// Sensor points where they are listed instead of a plane. \[m\]
+    /// Listed sensor points in room coordinates; empty if there is a sensor plane. \[m\]
     pub points: &'a [[f64; 3]],
-    /// Height of the sensor plane; `None`: there is none. \[m\]
+    /// Height of the sensor plane above the floor; `None` if there is none. \[m\]
     pub plane_z: Option<f64>,
     /// Quantity of `cells`.
     pub quantity: Quantity,
-    /// Reason why there is no daylight factor; `None` if there is one.
+    /// Reason why no daylight factor is defined for the sky; `None` if it is.
     pub no_factor: Option<Text>,
-    /// Settings of the view.
+    /// Display settings of the room tile.
     pub look: RoomLook,
-    /// Light on the surfaces, for the perspective, with a number that changes with it.
+    /// Illuminances on the surfaces of the room for the perspective, with their revision number; `None` before the
+    /// first result.
     pub surfaces: Option<(&'a SurfaceLight, u64)>,
-    /// Product and moment as text.
+    /// Product, date and time as text.
     pub name: &'a str,
-    /// Scale forced from outside (comparison), in the unit of `cells`.
+    /// Lowest and highest value of the scale, in the unit of `cells`, if the comparison sets it.
     pub range: Option<[f64; 2]>,
-    /// Number that changes with the results.
+    /// Revision number of `cells`, which changes whenever the results do.
     pub revision: u64,
-    /// Status of the content: preliminary, outdated or complete.
+    /// Status of the results shown: preliminary, outdated or complete.
     pub status: Status<'a>,
 }
 
 impl Input<'_> {
-    /// Creates the input of a room of size zero without anything in it.
+    /// Creates the input for a room of size zero without results.
     pub const fn nothing() -> Self {
         Self {
             room: [0.0; 3],
@@ -137,12 +141,12 @@ impl Input<'_> {
         }
     }
 
-    /// Whether every cell of the plane has its value.
+    /// Whether there is a result for every point of the sensor plane.
     pub const fn complete(&self) -> bool {
         self.nx > 0 && self.ny > 0 && self.cells.len() == self.nx * self.ny
     }
 
-    /// Returns the position of a sensor point. \[m\]
+    /// Returns the position of a sensor point, by its index, in room coordinates. \[m\]
     pub fn position(&self, sensor: usize) -> [f64; 3] {
         if let Some(point) = self.points.get(sensor) {
             return *point;
@@ -153,49 +157,52 @@ impl Input<'_> {
     }
 }
 
-/// Action of the user.
+/// Request of the user of the room tile. Indices are counted from 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Action {
     /// New height of the sensor plane. \[m\]
     PlaneMoved(f64),
-    /// New place and size of an aperture (counted from 0).
+    /// New position and size of an aperture, by its index.
     OpeningMoved(usize, Opening),
-    /// New position of a listed sensor point (counted from 0). \[m\]
+    /// New position of a listed sensor point, by its index, in room coordinates \[m\].
     PointMoved(usize, [f64; 3]),
-    /// New place and size of an obstruction (counted from 0).
+    /// New position and size of an obstruction's box, by its index.
     BoxMoved(usize, BoxKeys),
-    /// Removal of an obstruction (counted from 0).
+    /// Removal of an obstruction, by its index.
     BoxGone(usize),
-    /// New settings of the view.
+    /// New display settings of the room tile.
     Look(RoomLook),
 }
 
-/// Extent of a picture: from and to along the depth, and along the axis across it. \[m\]
+/// Extent of a picture in the room's axes: lowest and highest coordinate along the depth (y), and along the axis across
+/// it (x in the plan, z in the section). \[m\]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span(pub [[f64; 2]; 2]);
 
 impl Span {
-    /// Returns the extent of the room alone.
+    /// Returns the extent of the room alone, given its size \[m\]. `side`: whether it is seen from the side.
     pub const fn of(room: [f64; 3], side: bool) -> Self {
         Self([[0.0, room[1]], [0.0, if side { room[2] } else { room[0] }]])
     }
 }
 
-/// Room on the screen, the façade at the left: from above with x downwards, or from the side with z upwards.
+/// Mapping between room and screen, with the façade at the left: from above with x downwards (plan), or from the side
+/// with z upwards (section).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
-    /// Outline of the room.
+    /// Rectangle of the room on the screen.
     pub area: Rect,
-    /// Area of all that is shown: the room and its surroundings.
+    /// Rectangle of the whole picture on the screen: the room and its surroundings.
     pub view: Rect,
     /// Scale of the picture. \[points/m\]
     pub scale: f32,
-    /// Whether the room is seen from the side.
+    /// Whether the room is seen from the side (section) instead of from above (plan).
     pub side: bool,
 }
 
 impl Frame {
-    /// Creates the largest frame of the room with its surroundings that fits into a rectangle, at its left.
+    /// Creates the largest mapping by which the extent `span` fits into a rectangle, aligned to its left. `room`: size
+    /// \[m\].
     pub fn around(rect: Rect, span: Span, room: [f64; 3], side: bool) -> Self {
         let lengths = |span: Span| span.0.map(|[low, high]| (high - low).max(1e-3) as f32);
         let [depth, across] = lengths(span);
@@ -210,21 +217,22 @@ impl Frame {
         Self { area: Rect::from_min_size(corner, vec2(own_depth, own_across) * scale), view, scale, side }
     }
 
-    /// Returns the screen point of a depth and a length across it: x from above, z from the side. \[m\]
+    /// Returns the screen position of a depth y and a coordinate across it: x in the plan, z in the section. \[m\]
     pub fn screen(&self, depth: f64, across: f64) -> Pos2 {
         let across = across as f32 * self.scale;
         let y = if self.side { self.area.bottom() - across } else { self.area.top() + across };
         pos2(self.area.left() + depth as f32 * self.scale, y)
     }
 
-    /// Returns depth and length across it of a screen point: x from above, z from the side. \[m\]
+    /// Returns the depth y of a screen position and the coordinate across it: x in the plan, z in the section. \[m\]
     pub fn room(&self, at: Pos2) -> (f64, f64) {
         let depth = (at.x - self.area.left()) / self.scale;
         let across = if self.side { self.area.bottom() - at.y } else { at.y - self.area.top() };
         (f64::from(depth), f64::from(across / self.scale))
     }
 
-    /// Returns an aperture on the screen; a line where it is seen edge-on.
+    /// Returns the rectangle of an aperture on the screen, which has no width if the aperture is seen edge-on. `room`:
+    /// size \[m\].
     pub fn opening(&self, opening: &Opening, room: [f64; 3]) -> Rect {
         let ([o, s], side) = ([opening.origin, opening.size], self.side);
         let [depth, across] = match (opening.surface, side) {

@@ -1,5 +1,5 @@
-//! The surfaces of a room cut into small pieces with the illuminance at their corners, fine where the sun's patches
-//! end.
+//! The surfaces of a room divided into small pieces with the illuminance at their corners, finer along the edges of sun
+//! patches.
 
 use crate::compute::polygon::area;
 use crate::compute::room::beam::Lit;
@@ -7,35 +7,37 @@ use crate::compute::room::mesh::Wall;
 use crate::study::{PatchLight, SurfaceLight};
 use glam::{DVec2, DVec3};
 
-/// Maximum edge of a piece. \[m\]
+/// Maximum edge length of a piece. \[m\]
 const LARGEST: f64 = 0.25;
-/// Number of times that a piece is halved where a sun patch ends in it.
+/// Number of times that a piece is halved in both directions if the edge of a sun patch crosses it.
 const HALVINGS: usize = 3;
 
-/// Rectangular piece of a surface.
+/// Rectangular piece of a surface of the room.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// Index of the wall.
+    /// Index of the surface in [`SurfaceLight`].
     pub wall: usize,
-    /// Corners, in order round the piece. \[m\]
+    /// Corners in room coordinates, in order round the piece. \[m\]
     pub corners: [DVec3; 4],
-    /// Illuminance at each corner. \[lx\]
+    /// Illuminance at each corner, in the order of `corners`. \[lx\]
     pub illuminance: [f64; 4],
-    /// Diffuse reflectance.
+    /// Diffuse reflectance of the surface.
     pub reflectance: f64,
 }
 
-/// Returns the patches of a wall, with the numbers of its rows and columns.
+/// Returns the patches of a surface, with their numbers along its first and second axis.
 fn grid<'a>(light: &'a SurfaceLight, wall: &Wall) -> (&'a [PatchLight], usize, usize) {
     (&light.patches[wall.patches()], wall.lines[0].len() - 1, wall.lines[1].len() - 1)
 }
 
-/// Returns the index of the cell that holds a coordinate.
+/// Returns the index of the interval between ascending `lines` that contains a coordinate; the nearest interval if none
+/// does.
 fn cell(lines: &[f64], at: f64) -> usize {
     lines.partition_point(|line| *line <= at).clamp(1, lines.len() - 1) - 1
 }
 
-/// Returns the two cells between whose middles a coordinate lies, and its share of the distance between them.
+/// Returns the indices of the two intervals between whose middles a coordinate lies, and its relative distance from the
+/// first middle, 0 … 1.
 fn between(lines: &[f64], at: f64) -> (usize, usize, f64) {
     let middle = |k: usize| 0.5 * (lines[k] + lines[k + 1]);
     let own = cell(lines, at);
@@ -45,8 +47,8 @@ fn between(lines: &[f64], at: f64) -> (usize, usize, f64) {
     (a, b, share)
 }
 
-/// Returns the illuminance at a point of a wall without the sun's beams, interpolated between the means of its patches.
-/// \[lx\]
+/// Returns the illuminance without the sun's beams at a point of a surface, interpolated between the mean values of its
+/// patches \[lx\]. `at`: coordinates along the surface \[m\].
 fn diffuse(light: &SurfaceLight, wall: &Wall, at: DVec2) -> f64 {
     let (patches, _, columns) = grid(light, wall);
     let (i0, i1, s) = between(&wall.lines[0], at.x);
@@ -62,13 +64,14 @@ fn holds(lit: &Lit, at: DVec2) -> bool {
     edges.into_iter().all(|(a, b)| sign * (*b - *a).perp_dot(at - *a) >= 0.0)
 }
 
-/// Returns the illuminance by the sun's beams at a point of a wall. \[lx\]
+/// Returns the illuminance by the sun's beams at a point of a surface \[lx\]. `at`: coordinates along the surface
+/// \[m\].
 fn beams(light: &SurfaceLight, wall: usize, at: DVec2) -> f64 {
     light.lit.iter().filter(|lit| lit.wall == wall && holds(lit, at)).map(|lit| lit.illuminance).sum()
 }
 
-/// Returns the patch at a `point` \[m\] of a wall, and the illuminances there without the sun's beams and by them.
-/// \[lx\]
+/// Returns the patch at a point of a surface, given in room coordinates \[m\], and the illuminances at this point
+/// without the sun's beams and by them \[lx\]; `None` if there is no such surface.
 pub fn at(light: &SurfaceLight, wall: usize, point: DVec3) -> Option<(PatchLight, f64, f64)> {
     let own = light.walls.get(wall)?;
     let place = DVec2::new(point[own.along[0]], point[own.along[1]]);
@@ -77,7 +80,8 @@ pub fn at(light: &SurfaceLight, wall: usize, point: DVec3) -> Option<(PatchLight
     Some((patch, diffuse(light, own, place), beams(light, wall, place)))
 }
 
-/// Whether the border of the area that a beam lights runs through a rectangle of its wall.
+/// Whether the edge of a sun patch, the area lit by a beam, crosses a rectangle of its surface, given by its lowest and
+/// highest corner \[m\].
 fn crosses(lit: &Lit, low: DVec2, high: DVec2) -> bool {
     let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
     if corners.iter().all(|corner| holds(lit, *corner)) {
@@ -102,6 +106,8 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
+    /// Adds a rectangle of the surface to the pieces, halved at most `halvings` times where edges of sun patches cross
+    /// it.
     fn cut(&mut self, low: DVec2, high: DVec2, halvings: usize) {
         if halvings > 0 && self.lit.iter().any(|lit| crosses(lit, low, high)) {
             let middle = 0.5 * (low + high);
@@ -125,7 +131,7 @@ impl Cutter<'_> {
     }
 }
 
-/// Returns the pieces of all surfaces but the apertures.
+/// Returns the pieces of all surfaces of the room without the apertures.
 pub fn pieces(light: &SurfaceLight) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for (number, wall) in light.walls.iter().enumerate() {

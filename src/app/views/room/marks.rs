@@ -1,11 +1,12 @@
-//! Marks on the floor plan: iso-lux levels with their names, and a scale.
+//! Marks on the floor plan: labels of iso-lux lines, and a scale bar.
 
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::palette::contrast;
 use crate::drawing::ticks::tick;
 use egui::{Color32, FontId, Pos2, Rect, Stroke, Ui, Vec2, pos2, vec2};
 
-/// Writes a line's level on it where nothing else stands, inside the plan; `false` where there is no such place.
+/// Draws the level of an iso-lux line on the line, inside the plan and clear of the rectangles `used`, to which its
+/// label is added; returns `false` if there is no room.
 pub(super) fn label_line(
     ui: &Ui,
     points: &[Pos2],
@@ -41,10 +42,10 @@ pub(super) fn label_line(
     false
 }
 
-/// Size of names on the floor plan. \[points\]
+/// Font size of labels on the floor plan. \[points\]
 const NAME_SIZE: f32 = 13.0;
 
-/// Whether a line runs through a rectangle.
+/// Whether a polyline crosses a rectangle.
 fn runs_through(line: &[Pos2], place: Rect) -> bool {
     line.windows(2).any(|ends| {
         // What of the line, as shares of its length, is within all four sides (Liang and Barsky 1984).
@@ -66,8 +67,8 @@ fn runs_through(line: &[Pos2], place: Rect) -> bool {
     })
 }
 
-/// Returns the place of a given size that covers least of an area: in a corner if one is free, else anywhere, starting
-/// at the deep end.
+/// Returns the rectangle of a given size that covers the fewest lines and things of an area: in a corner if one is
+/// free, otherwise anywhere, preferably at the rear of the room; `None` if the area is too small.
 fn free_place(area: Rect, size: Vec2, lines: &[Vec<Pos2>], things: &[Rect]) -> Option<Rect> {
     const STEPS: usize = 12;
     let inside = area.shrink(3.0);
@@ -90,8 +91,8 @@ fn free_place(area: Rect, size: Vec2, lines: &[Vec<Pos2>], things: &[Rect]) -> O
     corners.into_iter().chain(grid).map(|(x, y)| at(x, y)).min_by_key(covered)
 }
 
-/// Draws a bar of whole metres where it covers neither lines nor things, at `scale` \[points/m\]. Returns the place
-/// that it takes.
+/// Draws a scale bar of whole metres at a position where it covers few lines and things; `scale` of the picture
+/// \[points/m\]. Returns its rectangle.
 pub(super) fn scale_bar(ui: &Ui, area: Rect, scale: f32, lines: &[Vec<Pos2>], things: &[Rect]) -> Rect {
     let metres = [10.0_f32, 5.0, 2.0].into_iter().find(|m| m * scale < 0.3 * area.width()).unwrap_or(1.0);
     let galley = ui.painter().layout_no_wrap(format!("{metres} m"), FontId::proportional(NAME_SIZE), Color32::WHITE);

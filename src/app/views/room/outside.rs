@@ -1,5 +1,5 @@
-//! Obstructions in floor plan and section: to scale, as far as the picture extends; those beyond it are stated with
-//! their distance.
+//! Obstructions in floor plan and section: drawn to scale within the extent of the picture; those beyond it are named
+//! with their distance.
 
 use super::input::{Frame, Input, Span};
 use crate::app::paint::palette::Palette;
@@ -11,30 +11,32 @@ use egui::epaint::PathStroke;
 use egui::{Align2, FontId, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use glam::DVec3;
 
-/// Minimum margin round room and obstructions in the picture, where there are obstructions. \[m\]
+/// Minimum margin round room and obstructions in the picture if there are obstructions. \[m\]
 const MARGIN: f64 = 0.25;
-/// Width of the strip on a side where an obstruction lies beyond the picture. \[m\]
+/// Width of the strip of surroundings on a side with an obstruction beyond the picture. \[m\]
 const MARGIN_CUT: f64 = 0.6;
-/// Maximum share of the room's depth that the surroundings take on one side; [`MOST`] limits them too.
+/// Maximum width of the surroundings on one side of the picture as a fraction of the room's depth; [`MOST`] limits it
+/// too.
 const MOST_OF_DEPTH: f64 = 0.4;
-/// Maximum length that the surroundings take on one side of the picture. \[m\]
+/// Maximum width of the surroundings on one side of the picture. \[m\]
 const MOST: f64 = 3.0;
-/// Maximum depth of the ground below the floor at which it is shown, relative to the height of the room.
+/// Maximum depth of the ground below the floor at which the section shows it, as a fraction of the room's height.
 const GROUND_SHOWN: f64 = 1.25;
-/// Height of the line that states what lies beyond the picture. \[points\]
+/// Height of the line of text that names obstructions and ground beyond the picture. \[points\]
 pub(super) const BEYOND_HEIGHT: f32 = 18.0;
 
-/// Returns a box in the room's axes.
+/// Returns a box of a scene file as a solid in room coordinates.
 pub(super) fn solid(keys: &BoxKeys) -> Solid {
     Solid::new(DVec3::from_array(keys.from), DVec3::from_array(keys.to), keys.turn.to_radians())
 }
 
-/// Returns the room as a box.
+/// Returns a room of a size \[m\] as a solid in room coordinates.
 pub(super) fn room(size: [f64; 3]) -> Solid {
     Solid::new(DVec3::ZERO, DVec3::from_array(size), 0.0)
 }
 
-/// Returns the corners of a box as it is seen, in order: along the depth and across it. \[m\]
+/// Returns the outline of a box in a picture as its corners in order: coordinates along the depth (y) and across it (z
+/// if seen from the `side`, otherwise x). \[m\]
 pub(super) fn outline(keys: &BoxKeys, side: bool) -> [[f64; 2]; 4] {
     let corners = solid(keys).corners();
     if side {
@@ -46,20 +48,20 @@ pub(super) fn outline(keys: &BoxKeys, side: bool) -> [[f64; 2]; 4] {
     }
 }
 
-/// Returns the distance from the room within which boxes are drawn in perspective: far ones would be lines across the
-/// picture. \[m\]
+/// Returns the maximum distance from the room at which boxes are drawn in perspective, since farther ones would be
+/// lines across the picture. \[m\]
 pub(super) fn reach(input: &Input<'_>) -> f64 {
     0.5 * DVec3::from_array(input.room).length()
 }
 
-/// Returns the boxes that are drawn in perspective.
+/// Returns the boxes of obstructions that are drawn in perspective.
 pub(super) fn near<'a>(input: &Input<'a>) -> impl Iterator<Item = Solid> + use<'a> {
     let (corners, reach) = (room(input.room).corners(), reach(input));
     let solids = input.outside.iter().map(|(keys, _)| solid(keys));
     solids.filter(move |solid| solid.gap_to(&corners) < reach)
 }
 
-/// Whether the ground is shown in the section.
+/// Whether the section shows the ground, which must not be too far below the floor.
 fn shows_ground(ground: &GroundShade, room: [f64; 3]) -> bool {
     -ground.height <= GROUND_SHOWN * room[2]
 }
@@ -73,7 +75,8 @@ fn extent(keys: &BoxKeys, side: bool) -> [[f64; 2]; 2] {
     [0, 1].map(|axis| range(corners.iter().map(|corner| corner[axis])))
 }
 
-/// Returns the extent of the surroundings that is shown: near boxes whole, of far ones only a strip on their side.
+/// Returns the extent of a picture, with near boxes completely inside, and a strip of surroundings on the side of far
+/// ones. `side`: whether it is the section.
 pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
     let room = Span::of(input.room, side);
     let most = (MOST_OF_DEPTH * input.room[1]).clamp(1.0, MOST);
@@ -104,23 +107,23 @@ pub(super) fn span(input: &Input<'_>, side: bool) -> Span {
     Span(shown)
 }
 
-/// Whether any part of a box shows in a picture.
+/// Whether any part of a box is inside a picture.
 fn is_visible(keys: &BoxKeys, frame: &Frame) -> bool {
     bounds(keys, frame).intersects(frame.view.shrink(1.0))
 }
 
-/// Returns the rectangle round a box on the screen.
+/// Returns the bounding rectangle of a box on the screen.
 pub(super) fn bounds(keys: &BoxKeys, frame: &Frame) -> Rect {
     Rect::from_points(&polygon(keys, frame))
 }
 
-/// Returns the corners of a box on the screen.
+/// Returns the screen positions of the corners of a box's outline.
 pub(super) fn polygon(keys: &BoxKeys, frame: &Frame) -> [Pos2; 4] {
     outline(keys, frame.side).map(|[depth, across]| frame.screen(depth, across))
 }
 
-/// Returns the boxes and the ground that a picture cuts or does not reach, each with its text, and the place of its
-/// middle if it is not reached.
+/// Returns texts on the boxes and the ground that extend beyond a picture, each with the screen position of the middle
+/// of a box that lies completely beyond it.
 fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
     let corners = room(input.room).corners();
     let note = |(keys, name): &(BoxKeys, String)| {
@@ -142,7 +145,8 @@ fn beyond(input: &Input<'_>, frame: &Frame) -> Vec<(String, Option<Pos2>)> {
     input.outside.iter().filter_map(note).chain(ground).collect()
 }
 
-/// Draws what lies under the picture: the boxes, and marks on its border for those beyond it.
+/// Draws the boxes of obstructions, and marks at the border of the picture for those beyond it. To be drawn before the
+/// room.
 pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     if input.outside.is_empty() && !(frame.side && input.ground.is_some()) {
         return;
@@ -177,7 +181,7 @@ pub(super) fn show(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
     painter.rect_stroke(frame.view, 0, Stroke::new(1.0, palette.grid), StrokeKind::Inside);
 }
 
-/// Draws boxes that lie over or under the room as dashed lines over the picture.
+/// Draws boxes above or below the room as dashed lines over the plan.
 pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter().with_clip_rect(frame.view.intersect(ui.clip_rect()));
     for (keys, _) in input.outside {
@@ -189,7 +193,7 @@ pub(super) fn over(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette)
     }
 }
 
-/// Draws a line that states what lies beyond the picture, with all of it as tooltip.
+/// Draws the line that names obstructions and ground beyond the picture, with its full text as tooltip.
 pub(super) fn show_beyond(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let list: Vec<String> = beyond(input, frame).into_iter().map(|(words, _)| words).collect();
     let Some(first) = list.first() else { return };
@@ -208,7 +212,7 @@ pub(super) fn show_beyond(ui: &mut Ui, place: Rect, frame: &Frame, input: &Input
     response.on_hover_text(list.join("\n"));
 }
 
-/// Whether anything lies beyond the picture, so that [`show_beyond`] has something to state.
+/// Whether obstructions or ground extend beyond a picture of this extent, so that [`show_beyond`] has a text to draw.
 pub(super) fn has_beyond(input: &Input<'_>, side: bool, span: Span) -> bool {
     let holds = |extent: [[f64; 2]; 2]| {
         (0..2).all(|axis| span.0[axis][0] <= extent[axis][0] + 1e-9 && extent[axis][1] <= span.0[axis][1] + 1e-9)

@@ -1,7 +1,8 @@
-//! The room in perspective: its lit surfaces, apertures, sensor points, a person to scale; rotated with the pointer.
+//! The room in perspective, which can be rotated: its surfaces coloured by illuminance or luminance, apertures, sensor
+//! points, obstructions, a person to scale.
 //!
-//! A box from inside: walls that turn their back are left out, and what remains covers nothing of each other, so that
-//! no order of drawing is needed but that of things over walls.
+//! The room is a box seen into: walls whose outside faces the camera are left out. The remaining ones do not hide each
+//! other, so the only order of drawing required is that of things after walls.
 
 use super::ground;
 use super::input::Input;
@@ -21,20 +22,21 @@ use glam::DVec3;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Camera at a first start: from outside, over the façade's side, into the room.
+/// First camera: from outside, above one side of the façade, into the room.
 const FIRST: Camera = Camera::from(-0.75, 0.5);
-/// Height of the person. \[m\]
+/// Height of the person drawn for scale. \[m\]
 const PERSON: f64 = 1.7;
-/// Share of the brightest displayable luminance to which the mean luminance is mapped (Reinhard et al. 2002, key).
+/// Fraction of the largest displayable luminance to which the logarithmic mean of the luminances is mapped (key of
+/// Reinhard et al. 2002).
 const KEY: f64 = 0.28;
-/// Names of the walls in their order.
+/// Names of the surfaces of the room, in the order of their indices.
 const WALLS: [Text; 6] =
     [say::WALL_FLOOR, say::WALL_CEILING, say::WALL_NEAR_X, say::WALL_FAR_X, say::FACADE, say::WALL_REAR];
 
-/// Colours of a piece's corners.
+/// Colours of the four corners of a piece of a surface.
 type Corners = [Color32; 4];
 
-/// State of this picture between frames.
+/// Camera and caches of the perspective between frames.
 #[derive(Debug, Clone)]
 pub struct State {
     camera: Camera,
@@ -49,14 +51,16 @@ impl Default for State {
     }
 }
 
-/// Returns the scale of the surfaces' illuminances. The sun's patches, a hundred times brighter, lie beyond it.
+/// Returns the colour scale of the illuminances on the room's surfaces \[lx\], up to the largest one without the sun's
+/// beams; sun patches, about a hundred times brighter, lie beyond it.
 fn scale_of(light: &SurfaceLight, log: bool) -> ColourScale {
     let bare = light.patches.iter().filter(|one| one.patch.aperture.is_none());
     let max = bare.map(|one| one.diffuse.value).fold(1.0, f64::max);
     ColourScale::up_to(max, log, 2, ColourMap::Sequential)
 }
 
-/// Returns the colours of the corners of all pieces: by the scale, or as luminances are seen.
+/// Returns the colours of the corners of all pieces: by illuminance on a scale or, for `None`, as grey tones of their
+/// luminances, mapped to the display in the manner of a photograph.
 fn colours(pieces: &[Piece], scale: Option<&ColourScale>) -> Vec<[Color32; 4]> {
     if let Some(scale) = scale {
         return pieces.iter().map(|piece| piece.illuminance.map(|e| scale.colour(e))).collect();
@@ -78,14 +82,15 @@ fn colours(pieces: &[Piece], scale: Option<&ColourScale>) -> Vec<[Color32; 4]> {
     pieces.iter().map(|piece| luminance(piece).map(seen)).collect()
 }
 
-/// Draws a line in space, if both ends lie in front of the camera.
+/// Draws a line between two points in room coordinates \[m\], if both lie in front of the camera.
 fn line(painter: &Painter, view: &View, ends: [DVec3; 2], stroke: Stroke) {
     if let [Some((a, _)), Some((b, _))] = ends.map(|end| view.screen(end)) {
         painter.line_segment([a, b], stroke);
     }
 }
 
-/// Returns the six sides of a box, each as a point and the normal into the room, in the order of [`WALLS`].
+/// Returns the six surfaces of a room of a size \[m\], each as a point and the normal into the room, in the order of
+/// [`WALLS`].
 fn sides(size: DVec3) -> [(DVec3, DVec3); 6] {
     [
         (DVec3::ZERO, DVec3::Z),
@@ -97,7 +102,8 @@ fn sides(size: DVec3) -> [(DVec3, DVec3); 6] {
     ]
 }
 
-/// Returns the wall that a ray meets from inside, and the point.
+/// Returns the index of the visible surface of the room at a screen position, and the point on it in room coordinates
+/// \[m\]; `None` beside the room.
 fn hit(view: &View, size: DVec3, at: Pos2) -> Option<(usize, DVec3)> {
     let ray = view.ray(at);
     sides(size).into_iter().enumerate().find_map(|(wall, (point, normal))| {
@@ -111,7 +117,7 @@ fn hit(view: &View, size: DVec3, at: Pos2) -> Option<(usize, DVec3)> {
     })
 }
 
-/// Returns the pieces of the visible walls as a mesh.
+/// Returns a mesh of the pieces of the visible surfaces.
 fn mesh(view: &View, size: DVec3, pieces: &[Piece], colours: &[[Color32; 4]]) -> Mesh {
     let seen = sides(size).map(|(point, normal)| view.faces(point, normal));
     let mut mesh = Mesh::default();
@@ -128,7 +134,7 @@ fn mesh(view: &View, size: DVec3, pieces: &[Piece], colours: &[[Color32; 4]]) ->
     mesh
 }
 
-/// Draws the edges of the visible walls, with a mark every metre along the floor.
+/// Draws the edges of the visible surfaces, with a mark every metre along the floor.
 fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
     let seen = sides(size).map(|(point, normal)| view.faces(point, normal));
     for axis in 0..3 {
@@ -175,7 +181,7 @@ fn edges(painter: &Painter, view: &View, size: DVec3, palette: &Palette) {
     }
 }
 
-/// Draws the apertures: framed, and brighter than their surroundings where their room side is seen.
+/// Draws the apertures with frames, filled with a bright colour if their side to the room is visible.
 fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     for opening in input.apertures {
         let ([a, b], [w, h]) = (opening.origin, opening.size);
@@ -201,7 +207,7 @@ fn openings(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette
     }
 }
 
-/// Draws the edges of nearby obstructions.
+/// Draws the edges of the obstructions near the room.
 fn around(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette) {
     for ends in outside::near(input).flat_map(|solid| solid.visible_edges(view.eye)) {
         line(painter, view, ends, Stroke::new(1.5, palette.weak));
@@ -223,7 +229,7 @@ fn sensors(painter: &Painter, view: &View, input: &Input<'_>, palette: &Palette)
     }
 }
 
-/// Draws a person, turned to the viewer, at a place where little is hidden.
+/// Draws a person to scale, facing the camera, at a position in the room where it hides little.
 fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     if room[2] < PERSON + 0.05 || room[0] < 1.0 || room[1] < 1.0 {
         return;
@@ -263,7 +269,8 @@ fn person(painter: &Painter, view: &View, room: [f64; 3], palette: &Palette) {
     }
 }
 
-/// Returns the illuminance of the surface under the cursor as text.
+/// Returns the illuminance with its error, and the luminance, at a point of a surface (index `wall`; `place` in room
+/// coordinates \[m\]) as text.
 fn value(light: &SurfaceLight, wall: usize, place: DVec3) -> Foot {
     let Some((patch, diffuse, beam)) = lit::at(light, wall, place) else { return Foot::default() };
     if patch.patch.aperture.is_some() {
@@ -284,7 +291,7 @@ fn value(light: &SurfaceLight, wall: usize, place: DVec3) -> Foot {
     ])
 }
 
-/// Returns the mean illuminances of all surfaces as one line.
+/// Returns a line with the luminous flux into the room and the mean illuminances of floor, ceiling and rear wall.
 fn summary(light: &SurfaceLight) -> Foot {
     let mean = |wall: usize| {
         let own = light.patches.iter().filter(|one| one.patch.wall == wall && one.patch.aperture.is_none());
@@ -301,7 +308,7 @@ fn summary(light: &SurfaceLight) -> Foot {
     ])
 }
 
-/// Draws the perspective. Returns the line with the value under the cursor.
+/// Draws the perspective. Returns the line with the value under the pointer, or a summary.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, (log, hold): (bool, bool), state: &mut State) -> Foot {
     let palette = Palette::of(ui.visuals());
     let legend_height = if input.look.as_seen { 0.0 } else { LEGEND_HEIGHT };

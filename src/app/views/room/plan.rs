@@ -1,4 +1,5 @@
-//! The room from above: false colours with iso-lux lines, the row of the section, a scale.
+//! The floor plan of the room: results at the sensor points in false colours with iso-lux lines, the row of the
+//! section, a scale bar.
 
 use super::input::{Frame, Input};
 use super::marks::{label_line, scale_bar};
@@ -12,17 +13,17 @@ use crate::texts::tiles as say;
 use egui::{Align2, Color32, FontId, Mesh, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;
 
-/// Iso-lux level: an illuminance and its lines.
+/// Iso-lux level: value in the unit of the results, and its lines.
 type IsoLevel = (f64, Vec<IsoLine>);
 
-/// Cached pictures of the floor plan.
+/// Cached mesh and iso-lux lines of the floor plan.
 #[derive(Debug, Clone, Default)]
 pub struct Pictures {
     lines: Cache<(u64, [usize; 2], ColourScale), Vec<IsoLevel>>,
     mesh: Cache<(u64, Rect, ColourScale), Arc<Mesh>>,
 }
 
-/// Draws the floor plan.
+/// Draws the floor plan. `row`: index, counted along x, of the row of sensor points that the section shows.
 pub(super) fn show(
     ui: &Ui,
     plan: &Frame,
@@ -98,7 +99,8 @@ pub(super) fn show(
     outline(ui, plan, input, palette);
 }
 
-/// Returns the places of the other things on the picture: sensor points with their values, apertures.
+/// Returns the rectangles of other things in the picture, which labels must not cover: listed sensor points with their
+/// values, apertures.
 pub(super) fn things(frame: &Frame, input: &Input<'_>) -> Vec<Rect> {
     let sensor = |point: &[f64; 3]| {
         let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });
@@ -108,7 +110,7 @@ pub(super) fn things(frame: &Frame, input: &Input<'_>) -> Vec<Rect> {
     input.points.iter().map(sensor).chain(openings).collect()
 }
 
-/// Draws the outline of the room with its apertures.
+/// Draws the outline of the room with its apertures in plan.
 pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter();
     painter.rect_stroke(frame.area, 0, Stroke::new(1.5, palette.outline), StrokeKind::Outside);
@@ -136,7 +138,7 @@ pub(super) fn outline(ui: &Ui, frame: &Frame, input: &Input<'_>, palette: &Palet
     );
 }
 
-/// Draws listed sensor points with their values.
+/// Draws listed sensor points with their values, in plan or section.
 pub(super) fn points(ui: &Ui, frame: &Frame, input: &Input<'_>, scale: &ColourScale, palette: &Palette) {
     for (number, point) in input.points.iter().enumerate() {
         let at = frame.screen(point[1], if frame.side { point[2] } else { point[0] });

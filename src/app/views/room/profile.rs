@@ -1,4 +1,4 @@
-//! Illuminance against the distance from the façade, in one row of sensor points.
+//! Plot of illuminance or daylight factor against the distance from the façade, in one row of sensor points.
 
 use super::input::{CellValue, Input, Quantity};
 use super::words::value_text;
@@ -11,7 +11,9 @@ use crate::drawing::ticks::number;
 use crate::texts::{Text, tiles as say};
 use egui::{Rect, Ui};
 
-/// Draws the profile. Returns the line with the value under the cursor.
+/// Draws the profile of a row of sensor points (index `row`, counted along x) and the range of all rows. `pointed`:
+/// index along y of the point under the pointer in the picture above. Returns the line with the value under the
+/// pointer.
 pub(super) fn show(
     ui: &mut Ui,
     rect: Rect,

@@ -1,4 +1,4 @@
-//! Text and numbers of the room tile.
+//! Texts and tables of the results at the sensor points, for the room tile.
 
 use super::input::{CellValue, Input, Quantity};
 use crate::app::paint::tile::Foot;
@@ -7,8 +7,8 @@ use crate::drawing::ticks::number;
 pub use crate::study::scene_words::error_words;
 use crate::texts::tiles as say;
 
-/// Returns the mean of all values and the uniformity U_o, with the errors that result if every value is off by its own
-/// at once.
+/// Returns the mean of the results at all sensor points and the uniformity U_o (minimum / mean), with the errors that
+/// result if all values deviate by their errors at once; `None` without light.
 pub fn uniformity(cells: &[CellValue]) -> Option<(Estimate, Estimate)> {
     let least = cells.iter().min_by(|a, b| a.total.total_cmp(&b.total))?;
     let sum: Estimate = cells.iter().map(|cell| Estimate::new(cell.total, cell.error)).sum();
@@ -20,7 +20,7 @@ pub fn uniformity(cells: &[CellValue]) -> Option<(Estimate, Estimate)> {
     Some((mean, Estimate::new(ratio, ratio * mean.error / mean.value + least.error / mean.value)))
 }
 
-/// Returns the value of one sensor point as text.
+/// Returns result, error and components at one sensor point as text.
 pub(super) fn value_text(v: &CellValue, quantity: Quantity) -> Foot {
     let unit = quantity.unit();
     let error = match (v.error, v.data_error) {
@@ -45,7 +45,7 @@ fn dark() -> Foot {
     Foot::from([say::NO_LIGHT_AT_SENSORS, say::NO_LIGHT].map(String::from))
 }
 
-/// Returns the summary of all sensor points as text.
+/// Returns a summary of the results at all sensor points as text: mean, uniformity, range.
 pub(super) fn summary(input: &Input<'_>) -> Foot {
     let formatted = |value| input.quantity.format(value);
     let totals = || input.cells.iter().map(|c| c.total);
@@ -73,7 +73,7 @@ pub(super) fn summary(input: &Input<'_>) -> Foot {
     ])
 }
 
-/// Returns all sensor points as CSV, with position and components.
+/// Returns the results at all sensor points as CSV, with position \[m\], components and errors.
 pub fn csv(input: &Input<'_>) -> String {
     use std::fmt::Write as _;
     let names = "x_m,y_m,z_m,total_lx,error_lx,direct_lx,interreflected_lx,error_data_lx,beam_lx\n";

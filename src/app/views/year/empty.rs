@@ -1,4 +1,5 @@
-//! The year tile before there is a result: the weather that would be used, and the button that computes the year.
+//! The year tile before there is a result: an explanation, the choice of the weather data, and the button that computes
+//! the annual simulation.
 
 use super::input::{Action, Input};
 use super::parts::{GAP, progress, weak};
@@ -6,6 +7,7 @@ use crate::study::weather::{YEARS, words};
 use crate::texts::year as say;
 use egui::{Align, Button, ComboBox, Label, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder};
 
+/// Draws the content of the year tile before there is a result.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Action>) {
     let layout = Layout::top_down(Align::Min);
     ui.scope_builder(UiBuilder::new().max_rect(rect.shrink2(GAP)).layout(layout).id_salt("empty"), |ui| {
@@ -23,6 +25,7 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, out: &mut Vec<Act
     });
 }
 
+/// Draws the button that computes the annual simulation, and the choice of the weather data.
 fn ways(ui: &mut Ui, input: &Input<'_>, out: &mut Vec<Action>) {
     ui.horizontal_wrapped(|ui| {
         let button = Button::new(RichText::new(say::COMPUTE.get()).strong());

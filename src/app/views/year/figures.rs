@@ -1,5 +1,5 @@
-//! The figures of a year as a table: value, error, spread over the sensor points, comparison with limits; the
-//! definition of each in its tooltip.
+//! The figures of an annual simulation as a table: value, error, range over the sensor points, comparison with limits;
+//! tooltips contain the definitions.
 
 use crate::app::paint::palette::Palette;
 use crate::study::year::Row;
@@ -7,15 +7,16 @@ use crate::texts::year as say;
 use egui::{Grid, Label, Rect, RichText, ScrollArea, Ui, UiBuilder, Vec2, vec2};
 use std::fmt::Write as _;
 
-/// Minimum width of a table whose rows stand in one line each; in a narrower one the comparison with limits stands
-/// under the figure. \[points\]
+/// Minimum width of a table with one line per row \[points\]; in a narrower one the comparison with limits is placed
+/// under the figure.
 const WIDE: f32 = 600.0;
 
-/// Height of a row with the space under it. \[points\]
+/// Height of a row including the space under it. \[points\]
 const PITCH: f32 = 26.0;
-/// Space between columns, and between rows. \[points\]
+/// Space between columns (x) and between rows (y). \[points\]
 const SPACING: Vec2 = vec2(10.0, 4.0);
 
+/// Draws the table of the figures.
 pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
     let palette = Palette::of(ui.visuals());
     let text = |words: String, colour| RichText::new(words).size(13.0).color(colour);
@@ -54,8 +55,8 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
     });
 }
 
-/// Returns section, name, value, error, lowest and highest value of the sensor points, unit, and comparison with
-/// limits, as CSV. Shares are 0 … 1.
+/// Returns the figures as CSV: section, name, value, error, lowest and highest value of the sensor points, unit, and
+/// comparison with limits. Shares are given as 0 … 1.
 pub(super) fn csv(rows: &[Row]) -> String {
     let quoted = crate::texts::csv_cell;
     let mut out = String::from("section,figure,value,error,lowest,highest,unit,said\n");

@@ -1,4 +1,5 @@
-//! The electric lighting over the sunniest day of a month, and by month: IEA SHC Task 31 report (2005), figure 18.
+//! Plots of the electric lighting: its power over the sunniest day of a month, and its energy by month, as in IEA SHC
+//! Task 31 report (2005), figure 18.
 
 use super::input::Shown;
 use super::parts::weak;
@@ -13,9 +14,10 @@ use egui::{Align2, Rect, Ui, vec2};
 use egui_plot::{Bar, BarChart};
 use std::fmt::Write as _;
 
-/// First days of the months of a common year, from 0, and the end of the year.
+/// First days of the months of a common year, counted from 0, and the end of the year. \[d\]
 const FIRST: [f64; 13] = [0.0, 31.0, 59.0, 90.0, 120.0, 151.0, 181.0, 212.0, 243.0, 273.0, 304.0, 334.0, 365.0];
 
+/// Draws the plots of the electric lighting over a day and by month. Returns the line under them.
 pub(super) fn show(ui: &mut Ui, rect: Rect, shown: &Shown<'_>) -> String {
     let Some(months) = shown.months else {
         weak(ui, say::NO_LAMPS.get());
@@ -45,6 +47,8 @@ fn clock(hour: f64) -> String {
     format!("{:02}:{:02}", minutes / 60, minutes % 60)
 }
 
+/// Draws the power of the electric lighting over a day; `installed`: installed power \[W/m²\]. Returns the line for the
+/// time under the pointer.
 fn over_day(ui: &mut Ui, rect: Rect, day: &Day, installed: f64) -> Option<String> {
     let palette = Palette::of(ui.visuals());
     let (head, body) = rect.split_top_bottom_at_y(rect.top() + 18.0);
@@ -63,6 +67,7 @@ fn over_day(ui: &mut Ui, rect: Rect, day: &Day, installed: f64) -> Option<String
     Some(say::power_at(begin, end, number(day.watts[step], 3), low, high))
 }
 
+/// Draws the energy of the electric lighting by month as bars, from values and errors \[kWh/m²\].
 fn by_month(ui: &mut Ui, rect: Rect, months: &[(f64, f64); 12], year: &Year) {
     let palette = Palette::of(ui.visuals());
     let most = months.iter().map(|(energy, error)| energy + error).fold(1e-6, f64::max);
@@ -85,7 +90,8 @@ fn by_month(ui: &mut Ui, rect: Rect, months: &[(f64, f64); 12], year: &Year) {
     tile::name(ui, &drawn.response, say::MONTH_PLOT, &say::energy_of(fixed(total, 2), whole));
 }
 
-/// Returns the day step by step, then the months, as CSV.
+/// Returns the power of the electric lighting for every step of the day \[W/m²\], then the energy of every month
+/// \[kWh/m²\], as CSV.
 pub(super) fn csv(shown: &Shown<'_>) -> String {
     let mut out = String::from("from,to,value,low,high,unit\n");
     // Writing to a String cannot fail.

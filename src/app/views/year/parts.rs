@@ -5,10 +5,10 @@ use crate::app::paint::palette::Palette;
 use crate::texts::year as say;
 use egui::{ProgressBar, Ui, Vec2, vec2};
 
-/// Space between widgets. \[points\]
+/// Space round the content of a page (x, y). \[points\]
 pub(super) const GAP: Vec2 = vec2(6.0, 4.0);
 
-/// Draws the progress of the computation, and a button that stops it.
+/// Draws the progress `share`, 0 … 1, of a running annual simulation, and a button that stops it.
 pub(super) fn progress(ui: &mut Ui, share: f32, out: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         let width = (ui.available_width() - 80.0).max(40.0);
@@ -19,7 +19,7 @@ pub(super) fn progress(ui: &mut Ui, share: f32, out: &mut Vec<Action>) {
     });
 }
 
-/// Draws a line of text in the weak colour.
+/// Draws a line of text in the colour of secondary text.
 pub(super) fn weak(ui: &mut Ui, text: &str) {
     let colour = Palette::of(ui.visuals()).weak;
     ui.add(egui::Label::new(egui::RichText::new(text).size(13.0).color(colour)).wrap());

@@ -1,14 +1,14 @@
-//! Order of values on the full grid of a tree.
+//! Order of the values on the full grid of a tensor tree.
 
 use super::shape::TreeShape;
 use crate::compute::btdf::tensor_tree::TensorTree;
 use crate::compute::btdf::{CellMatrix, Scattered};
 use std::borrow::Cow;
 
-/// Places of boxes in the order of the tree: the children of a branch side by side on every level, so that all that
-/// lies in one box is one slice.
+/// Indices of boxes in the order of the tree: the children of a branch are consecutive on every level, so that all
+/// values in one box are one slice.
 pub(super) struct Codes {
-    /// Bits of a coordinate, spread to those of its dimension 0.
+    /// Bits of a coordinate, spread to the positions of dimension 0 in the index.
     pub(super) spread: Vec<usize>,
     pub(super) values: usize,
 }
@@ -31,7 +31,8 @@ impl Codes {
     }
 }
 
-/// Returns the plain matrix behind cells or directions.
+/// Returns the scattered part as patch-averaged data if it is stored per cell or at single incident directions; `None`
+/// for other kinds.
 pub(super) fn matrix_of(scattered: &Scattered) -> Option<Cow<'_, CellMatrix>> {
     match scattered {
         Scattered::Cells(matrix) => Some(Cow::Borrowed(matrix)),
@@ -40,7 +41,7 @@ pub(super) fn matrix_of(scattered: &Scattered) -> Option<Cow<'_, CellMatrix>> {
     }
 }
 
-/// Scales a row of emergent cells to its flux.
+/// Scales the values of one incident cell so that their flux is `tau`.
 pub(super) fn to_flux(row: &mut [f64], tau: f64, projected_solid_angle: f64) {
     let got = row.iter().sum::<f64>() * projected_solid_angle;
     if got > 0.0 {
@@ -48,7 +49,7 @@ pub(super) fn to_flux(row: &mut [f64], tau: f64, projected_solid_angle: f64) {
     }
 }
 
-/// Adds a tree's leaves to the values on the full grid; finer ones averaged.
+/// Adds the leaves of a tree to the values on the full grid; finer leaves are averaged.
 pub(super) fn spread_leaves(tree: &TensorTree, level: u32, codes: &Codes, values: &mut [f64]) {
     let dimensions = tree.rank().dimensions();
     tree.for_each_leaf(&mut |at, corner, q| {

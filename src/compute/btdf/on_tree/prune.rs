@@ -1,4 +1,4 @@
-//! Merging of boxes of a full grid into leaves, as many as a stated share of the light allows.
+//! Merging of boxes of a full grid into leaves, as many as a stated share of misplaced flux allows.
 
 use super::shape::{OnTree, OnTreeError, TreeShape};
 use crate::compute::basis::SquareGrid;
@@ -9,32 +9,33 @@ use rayon::prelude::*;
 /// Maximum number of nodes of a tree that the reader of files takes:
 /// [`TREE_NODES`](crate::compute::limits::TREE_NODES).
 const MOST_NODES: usize = 8 << 20;
-/// Deviation in a box, relative to its mean, up to which its values differ by rounding alone. Sums of up to 10⁴ terms
-/// round to 2⁻⁵² · 10⁴ ≈ 2e-12; held by the test `a_diffuser_is_one_leaf`.
+/// Mean absolute deviation in a box, relative to its mean, up to which its values count as equal except for rounding.
+/// Sums of up to 10⁴ terms round to 2⁻⁵² · 10⁴ ≈ 2e-12; held by the test `a_diffuser_is_one_leaf`.
 const ROUNDING: f64 = 1e-10;
 
-/// Box that could be a leaf.
+/// Box of the grid that could become a leaf.
 #[derive(Clone, Copy)]
 struct Merged {
     mean: f64,
     /// Mean absolute deviation from the mean.
     deviation: f64,
-    /// Weight of the box in the light of all incident directions.
+    /// Weight of the box in the sum of the flux over all incident directions.
     weight: f64,
 }
 
 struct Grid<'a> {
     shape: TreeShape,
     values: &'a [f64],
-    /// All branches of every level, the root's level first.
+    /// Boxes of every level, the level of the root first.
     levels: Vec<Vec<Merged>>,
 }
 
-/// Prunes the values of a full grid, in the order of the tree.
+/// Creates a pruned tree from the values of a full grid in the order of the tree, with the differences by pruning.
+/// `turned`: share of light that differs between azimuths, for rank 3.
 pub(super) fn prune(values: Vec<f64>, axes: TreeAxes, shape: TreeShape, turned: f64) -> Result<OnTree, OnTreeError> {
     let weights = ring_weights(shape);
     let grid = Grid { shape, values: &values, levels: levels(&values, shape, &weights) };
-    // Rank 3 does not use one half of its first coordinate: its weight is 0, and so is its light.
+    // Rank 3 does not use one half of its first coordinate: weight and flux are 0 there.
     let flux: f64 = values.iter().enumerate().map(|(k, q)| q * weight(shape, &weights, k)).sum();
     let mut threshold = 0.0;
     if shape.tolerance > 0.0 && flux > 0.0 {
@@ -56,8 +57,8 @@ pub(super) fn prune(values: Vec<f64>, axes: TreeAxes, shape: TreeShape, turned: 
     Ok(OnTree { tree, misplaced, tau_change, turned })
 }
 
-/// Returns the weight of every step of sinθ: its share of the projected hemisphere. Empty in rank 4, whose boxes are
-/// equal.
+/// Returns the weight of every step of sinθ, proportional to its projected solid angle; empty for rank 4, whose boxes
+/// are equal.
 fn ring_weights(shape: TreeShape) -> Vec<f64> {
     match shape.rank {
         TreeRank::Four => Vec::new(),
@@ -68,6 +69,7 @@ fn ring_weights(shape: TreeShape) -> Vec<f64> {
     }
 }
 
+/// Returns the weight of the finest box with the index `place`; `weights`: see [`ring_weights`].
 fn weight(shape: TreeShape, weights: &[f64], place: usize) -> f64 {
     if weights.is_empty() {
         return 1.0;
@@ -75,6 +77,7 @@ fn weight(shape: TreeShape, weights: &[f64], place: usize) -> f64 {
     weights[(0..shape.level as usize).map(|bit| (place >> (3 * bit) & 1) << bit).sum::<usize>()]
 }
 
+/// Returns, by level from the root, what every box would hold if it were merged into one leaf.
 fn levels(values: &[f64], shape: TreeShape, weights: &[f64]) -> Vec<Vec<Merged>> {
     let bits = shape.rank.dimensions() as u32;
     (0..shape.level)
@@ -96,15 +99,15 @@ fn levels(values: &[f64], shape: TreeShape, weights: &[f64]) -> Vec<Vec<Merged>>
 }
 
 impl Grid<'_> {
-    /// Returns the box as a leaf, where it may be one.
+    /// Returns the box as a leaf if its deviation is within the threshold.
     fn leaf(&self, threshold: f64, level: usize, index: usize) -> Option<Merged> {
         let merged = self.levels.get(level)?[index];
-        // The root of rank 3 has an unused half beside the used one.
+        // The root of rank 3 must stay a branch, because half of it is not used.
         let whole = level > 0 || self.shape.rank == TreeRank::Four;
         (whole && merged.deviation <= threshold.max(ROUNDING * merged.mean)).then_some(merged)
     }
 
-    /// Returns the light misplaced in a box, weighted.
+    /// Returns the weighted deviation that merging causes in a box with this threshold.
     fn misplaced(&self, threshold: f64, level: usize, index: usize) -> f64 {
         if level == self.shape.level as usize {
             return 0.0;
@@ -116,6 +119,8 @@ impl Grid<'_> {
         (0..children).map(|child| self.misplaced(threshold, level + 1, index * children + child)).sum()
     }
 
+    /// Appends the nodes below a box, given by its level and index, to `nodes`, and sets the node `place` of the box
+    /// itself.
     fn build(
         &self,
         threshold: f64,
@@ -145,7 +150,7 @@ impl Grid<'_> {
     }
 }
 
-/// Returns the largest difference of τ between the tree and the grid it was made from.
+/// Returns the largest difference of τ between the tree and the grid from which it was created.
 fn tau_change(tree: &TensorTree, axes: TreeAxes, shape: TreeShape, values: &[f64]) -> f64 {
     let Some(grid) = SquareGrid::new(shape.level) else { return 0.0 };
     let resolution = grid.resolution();

@@ -1,4 +1,4 @@
-//! Requested shape of a tree, and the report on the tree made.
+//! Requested shape of a tensor tree, and the resulting tree with its differences from the source.
 
 use crate::compute::basis::SquareGrid;
 use crate::compute::btdf::tensor_tree::{TensorTree, TreeError, TreeRank};
@@ -11,59 +11,60 @@ pub const MOST_LEVEL_4: u32 = 6;
 /// memory (134 MB); finer ones are refused.
 pub const MOST_LEVEL_3: u32 = 8;
 
-/// Requested shape of a tree.
+/// Requested rank, resolution and accuracy of a tensor tree.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TreeShape {
-    /// Rank: the number of coordinates.
+    /// Rank of the tree.
     pub rank: TreeRank,
-    /// Number of finest steps of a coordinate, as log₂.
+    /// Level of the finest boxes: log₂ of the number of steps of each coordinate.
     pub level: u32,
-    /// Largest share of the light that merging boxes may misplace, 0 … 1.
+    /// Maximum share of the flux whose direction may change by the merging of boxes, 0 … 1.
     pub tolerance: f64,
 }
 
-/// Tree, and its differences from its source.
+/// Tensor tree converted from another BTDF or BRDF, with its differences from the source.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OnTree {
-    /// Tree that was made.
+    /// Resulting tree.
     pub tree: TensorTree,
-    /// Share of the grid's light that merging boxes misplaced.
+    /// Share of the flux of the full grid whose direction was changed by the merging of boxes.
     pub misplaced: f64,
-    /// Largest change of τ that merging made at any finest incident cell.
+    /// Largest change of τ of any finest incident cell by the merging of boxes.
     pub tau_change: f64,
-    /// Share of the light by which single azimuths of incidence differ from the mean that a tree of rank 3 keeps.
+    /// Share of the flux by which single azimuths of incidence differ from their mean, which a tree of rank 3 stores; 0
+    /// for rank 4.
     pub turned: f64,
 }
 
-/// Reason why a function cannot be made a tree of the requested shape.
+/// Error of a conversion to a tensor tree of the requested shape.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum OnTreeError {
-    /// Level too coarse or too fine.
+    /// Level outside the allowed range.
     #[error("a tree of level {level}; expected 1 … {most} for rank {rank}")]
     Level {
         /// Requested level.
         level: u32,
-        /// Maximum level for the rank.
+        /// Maximum level for this rank.
         most: u32,
         /// Number of coordinates of the requested tree.
         rank: usize,
     },
-    /// Tolerance that is not a share.
+    /// Tolerance outside 0 … 1.
     #[error("a tolerance of {0}; expected a share of the light, 0 … 1")]
     Tolerance(f64),
-    /// Tree larger than any reader takes.
+    /// Tree with more nodes than readers of files accept.
     #[error("a tree of more than {most} nodes; expected a coarser level or a larger tolerance")]
     Size {
         /// Maximum number of nodes.
         most: usize,
     },
-    /// Values that no tree can hold.
+    /// Values that are not valid in a tensor tree.
     #[error(transparent)]
     Tree(#[from] TreeError),
 }
 
 impl TreeShape {
-    /// Returns the finest level that is made for a rank.
+    /// Returns the maximum level of trees of a rank.
     pub const fn most_level(rank: TreeRank) -> u32 {
         match rank {
             TreeRank::Four => MOST_LEVEL_4,
@@ -71,7 +72,8 @@ impl TreeShape {
         }
     }
 
-    /// Returns the coarsest level whose cells are about a quarter of the source's, at most 6.
+    /// Returns the suggested level for a conversion: the coarsest whose cells are about a quarter of those of the
+    /// source, at most 6.
     pub fn level_for(btdf: &Btdf) -> u32 {
         let cells = match &btdf.scattered {
             Some(Scattered::Tree(tree)) => return tree.incident_grid().level().min(MOST_LEVEL_4),

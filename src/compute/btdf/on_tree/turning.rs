@@ -1,4 +1,5 @@
-//! Grid of rank 3: a function averaged over the azimuths of incidence, on an emergent square that turns with them.
+//! Full grid of rank 3: a function averaged over the azimuths of incidence, on an emergent square that rotates with
+//! them.
 
 use super::codes::{Codes, matrix_of, spread_leaves, to_flux};
 use crate::compute::basis::{RingBasis, SquareGrid, disk_from_square};
@@ -10,10 +11,11 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Number of azimuths of incidence over which rank 3 averages. Chosen: cost; steps of 10° meet every Klems sector (15°
-/// and more), and τ is set by more directions. No test of its own.
+/// and more), and τ is computed from more directions. No test of its own.
 const AZIMUTHS: usize = 36;
 
-/// Returns a function on the full grid of rank 3, and the share of its light that single azimuths place elsewhere.
+/// Returns the values of a function on the full grid of rank 3, and the share of its flux by which single azimuths of
+/// incidence differ from the mean.
 pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> (Vec<f64>, f64) {
     let (resolution, area) = (grid.resolution(), grid.projected_solid_angle());
     let mut values = vec![0.0; codes.values];
@@ -42,7 +44,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
         for at in 0..rings {
             let sines = (0..16).map(|k| 1.0 - 2.0 * (at as f64 + (k as f64 + 0.5) / 16.0) / resolution as f64);
             let (sum, weight) = sines.fold((0.0, 0.0), |(sum, weight), r| (sum + r * tau.at(r.asin()), weight + r));
-            // Straight light lies on the border at azimuth 0: half of it on either side.
+            // Undeviated light lies on the border between cells at azimuth 0: half of it goes to either side.
             for iy in [rings - 1, rings] {
                 let place = codes.of(0, at) | codes.of_square(1, [resolution - 1 - at, iy]);
                 values[place] += 0.5 * sum / weight / area;
@@ -52,7 +54,7 @@ pub(super) fn three(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes
     (values, if all > 0.0 { misplaced / all } else { 0.0 })
 }
 
-/// Source of q of the scattered part, with what is the same for all emergent directions found once.
+/// Evaluation of q of the scattered part, with quantities that are the same for all emergent directions computed once.
 #[expect(clippy::large_enum_variant, reason = "one a block, never in a list")]
 enum Sampler<'a> {
     Cells { incident: RingBasis, emergent: RingBasis, values: Vec<f64> },
@@ -71,7 +73,7 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Returns q for the incident direction `from`, as a function of the through direction of emergence.
+    /// Returns q for the incident direction `from` as a function of the reversed emergent direction. \[1/sr\]
     fn from(&self, from: Dir<Facade>) -> impl Fn(Dir<Facade>) -> f64 {
         let start = match self {
             Self::Cells { incident, emergent, .. } => incident.index(from).map(|i| i * emergent.len()),
@@ -87,8 +89,8 @@ impl<'a> Sampler<'a> {
     }
 }
 
-/// Computes the mean over the azimuths of one ring of incidence, on the emergent square that turns with them; how much
-/// single azimuths differ from it, and the flux, both weighted by the ring.
+/// Computes the mean of q over the azimuths of one ring of incidence, on the emergent square that rotates with them;
+/// also the sum by which single azimuths differ from it, and the flux, both weighted by the ring.
 fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGrid, at: usize) -> (Vec<f64>, f64, f64) {
     // Number of polar angles across a ring of incidence. Chosen: cost; τ is set by more directions.
     const RADII: usize = 3;
@@ -99,8 +101,8 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
     let sine = |u: f64| 1.0 - 2.0 * (at as f64 + u) / grid.resolution() as f64;
     let angle = |k: usize, of: usize| 2.0 * PI * (k as f64 + 0.5) / of as f64;
     let side = 1.0 / grid.resolution() as f64;
-    // The map from square to disk keeps areas, so that four equal quarters of a cell weigh the same; all azimuths share
-    // them, turned.
+    // The map from square to disk keeps areas, so that four equal quarters of a cell weigh the same; all azimuths use
+    // them, rotated.
     let disks: Vec<[[f64; 2]; 4]> = grid
         .cells()
         .map(|cell| {
@@ -116,7 +118,8 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
         let turn = angle(k, AZIMUTHS);
         for radius in 0..RADII {
             let r = sine((radius as f64 + 0.5) / RADII as f64);
-            // Incidence and emergence turn together: what is the same at every azimuth lands in the same cell.
+            // Incident and emergent direction are rotated together: light that does not depend on the azimuth stays in
+            // one cell.
             let of = sampler.from(direction(rotate([r, 0.0], turn)));
             for (value, cell) in row.iter_mut().zip(&disks) {
                 let sum: f64 = cell.iter().map(|&disk| of(direction(rotate(disk, turn)))).sum();
@@ -128,12 +131,12 @@ fn ring_mean(btdf: &Btdf, sampler: &Sampler<'_>, axes: TreeAxes, grid: SquareGri
     for row in &rows {
         mean.iter_mut().zip(row).for_each(|(m, q)| *m += q / AZIMUTHS as f64);
     }
-    // What is left at single azimuths is what rank 3 cannot hold. The ring's own weight lets the caller add up rings.
+    // Deviations at single azimuths cannot be represented in rank 3. The ring's weight lets the caller add up rings.
     let ring = sine(0.5) * grid.projected_solid_angle();
     let misplaced: f64 = rows.iter().flat_map(|row| row.iter().zip(&mean).map(|(q, m)| (q - m).abs())).sum::<f64>();
     let flux: f64 = mean.iter().sum();
-    // The emergent square is sampled too coarsely to be trusted with the flux: τ of the scattered part alone (straight
-    // light is put in by the caller) is averaged over more directions of incidence and sets it.
+    // The emergent square is sampled too coarsely for an accurate flux: it is scaled to τ of the scattered part alone,
+    // averaged over more incident directions; the caller adds the undeviated light.
     let scattered = Btdf { regular: None, scattered: btdf.scattered.clone() };
     let (mut tau, mut weight) = (0.0, 0.0);
     for k in 0..72 {

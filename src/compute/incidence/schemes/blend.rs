@@ -1,47 +1,48 @@
-//! Indicatrix made of turned pieces of the data's own: the form that every scheme yields, drawn in one place.
+//! Interpolated indicatrix as a sum of rotated bases and lobes of the data: the common result of all schemes, and its
+//! values on cells.
 
 use crate::compute::direction::Dir;
 use crate::compute::incidence::grid::Grid;
 use crate::compute::incidence::model::{Model, Recipe};
 use glam::{DQuat, DVec3};
 
-/// Base or lobe of an incident direction, with its rotation and flux.
+/// Base or lobe of an incident direction of the data, with the rotation and the flux that it has in the interpolated
+/// indicatrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Piece {
     vertex: usize,
-    /// Number of the lobe; `None` is the base.
+    /// Index of the lobe; `None` for the base.
     lobe: Option<usize>,
-    /// Rotation from the piece's own place to where it goes.
+    /// Rotation from the direction in the data to that in the interpolated indicatrix.
     turn: DQuat,
-    /// Share of the incident flux, kept exactly whatever is cut off at the horizon.
+    /// Share of the incident flux; exact even if a part is cut off at the border of the hemisphere.
     flux: f64,
 }
 
-/// Pieces that add up to an indicatrix.
+/// Rotated bases and lobes that add up to an indicatrix.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Blend {
     pieces: Vec<Piece>,
 }
 
-/// Rotation below which a piece stays where it is. \[rad, about\] Rounding of unit vectors that should be equal rotates
-/// by some 2⁻⁵² ≈ 2.2e-16.
+/// Rotation below which a base or lobe counts as unrotated. \[rad, about\] Rounding of unit vectors that should be
+/// equal rotates by some 2⁻⁵² ≈ 2.2e-16.
 const STILL: f64 = 1e-12;
 
 impl Piece {
-    /// Whether the piece stays where the data have it.
+    /// Whether the base or lobe has the direction that it has in the data.
     fn stays(&self) -> bool {
         self.turn.xyz().length() < STILL
     }
 
-    /// Returns the approximate place of the piece: of a lobe its centre, of a base the direction that its normal has
-    /// been turned to.
+    /// Returns the approximate direction of the piece: the rotated centre of a lobe, or the rotated normal for a base.
     fn place(&self, model: &Model) -> DVec3 {
         self.turn * self.lobe.map_or(DVec3::Z, |lobe| model.lobes[self.vertex][lobe].centre)
     }
 }
 
 impl Blend {
-    /// Creates the pieces of a recipe.
+    /// Creates the sum of the bases and lobes of a recipe.
     pub(super) fn of_recipe(model: &Model, recipe: &Recipe) -> Self {
         let mut blend = Self::default();
         for base in &recipe.bases {
@@ -54,7 +55,7 @@ impl Blend {
         blend
     }
 
-    /// Adds a whole indicatrix of the data, turned, carrying `flux`.
+    /// Adds the whole indicatrix of an incident direction of the data, rotated and scaled to `flux`.
     pub(super) fn push_whole(&mut self, model: &Model, vertex: usize, turn: DQuat, flux: f64) {
         let own = model.base_flux[vertex] + model.lobes[vertex].iter().map(|lobe| lobe.flux).sum::<f64>();
         if own > 0.0 {
@@ -65,14 +66,14 @@ impl Blend {
         }
     }
 
-    /// Adds a piece if it carries any flux.
+    /// Adds a base or lobe if its flux is above 0.
     fn push(&mut self, vertex: usize, lobe: Option<usize>, turn: DQuat, flux: f64) {
         if flux > 0.0 {
             self.pieces.push(Piece { vertex, lobe, turn, flux });
         }
     }
 
-    /// Returns the shape with the flux `tau`; `None` if it carries nothing and should.
+    /// Returns the sum scaled to the flux `tau`; `None` if its flux is 0 and `tau` is not.
     pub(super) fn with_flux(mut self, tau: f64) -> Option<Self> {
         if tau <= 0.0 {
             return Some(Self::default());
@@ -85,7 +86,7 @@ impl Blend {
         Some(self)
     }
 
-    /// Returns q on the cells of `target`, lobes as means of `points`² directions per cell. \[1/sr\]
+    /// Returns q of the sum on the cells of `target`; lobes are means of `points`² directions per cell. \[1/sr\]
     pub(super) fn coefficient(&self, model: &Model, target: &Grid, points: usize) -> Vec<f64> {
         let mut sum = vec![0.0; target.basis().len()];
         let mut out = Vec::new();
@@ -101,7 +102,8 @@ impl Blend {
     }
 }
 
-/// Adds a drawn piece with exactly its flux. A piece that fell off the hemisphere altogether lands at its rim.
+/// Adds the values `out` of a piece to `sum`, scaled to exactly its flux. The flux of a piece outside the hemisphere
+/// goes to the cell nearest to it.
 fn deposit(out: &[(usize, f64)], (wanted, place): (f64, DVec3), target: &Grid, sum: &mut [f64]) {
     let flux: f64 = out.iter().map(|&(cell, q)| q * target.projected[cell]).sum();
     if flux > 0.0 {
@@ -114,24 +116,25 @@ fn deposit(out: &[(usize, f64)], (wanted, place): (f64, DVec3), target: &Grid, s
     }
 }
 
-/// Draws the values of a base on the cells, not normalised.
+/// Computes the values of a rotated base on the cells, not normalised.
 fn draw_base(model: &Model, piece: &Piece, target: &Grid, out: &mut Vec<(usize, f64)>) {
     let base = model.base(piece.vertex);
     if piece.stays() {
-        // Where it stays, a base has its own cells' values: interpolation would only blur it.
+        // A base that is not rotated takes the values of its cells; interpolation would blur it.
         let same = model.grid.basis() == target.basis();
         for (cell, &d) in target.centre.iter().enumerate() {
             let own = if same { cell } else { model.grid.basis().index(Dir::from_unit(d)).unwrap_or(0) };
-            // A base is what lobes leave of the data; below 0 is rounding.
+            // The base is the data minus the lobes; negative values are rounding.
             out.push((cell, base[own].max(0.0)));
         }
         return;
     }
-    // Cells ask where their light came from: drawn the other way, a turned piece would leave holes between cells.
+    // For every target cell the direction before the rotation is looked up; rotating the source cells instead would
+    // leave gaps between them.
     let back = piece.turn.conjugate();
     for (cell, &d) in target.centre.iter().enumerate() {
         let d = back * d;
-        // What would have come from behind the plane is not known, and adds nothing.
+        // Directions that come from behind the plane have no data and add nothing.
         if d.z > 0.0 {
             let around = model.grid.around_rings(d);
             let first = |ring| model.grid.basis().first_cell(ring);
@@ -141,16 +144,16 @@ fn draw_base(model: &Model, piece: &Piece, target: &Grid, out: &mut Vec<(usize, 
     }
 }
 
-/// Draws the values of a lobe on the cells that it reaches, not normalised.
+/// Computes the values of a rotated lobe on the cells that it reaches, not normalised.
 fn draw_lobe(model: &Model, piece: &Piece, lobe: usize, (target, points): (&Grid, usize), out: &mut Vec<(usize, f64)>) {
     let own = &model.lobes[piece.vertex][lobe];
-    // As in the data, to the last digit; the picture below is sampled and interpolated.
+    // Exactly the values of the data; the raster below is sampled and interpolated.
     if piece.stays() && model.grid.basis() == target.basis() {
         out.extend(own.cells(&model.grid));
         return;
     }
     let picture = model.rasters[piece.vertex][lobe].turned_by(piece.turn);
-    // A little more than the lobe, since its picture fades out over the cells around it.
+    // The radius is enlarged, because the raster fades out over the cells around the lobe.
     target.within(piece.turn * own.centre, own.radius + 0.04, |cell| {
         let q = target.cell_mean(cell, points, |d| picture.at(d));
         if q > 0.0 {

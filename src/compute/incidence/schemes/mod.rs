@@ -1,8 +1,9 @@
-//! Indicatrix of the sun's direction by four schemes: lobes moved by their own responses, which is what the program
-//! does, and the report's three, to be compared with.
+//! Indicatrix of the sun's direction by four interpolation schemes: lobes shifted by their responses, the default, and
+//! the three schemes of the IEA SHC Task 31 report for comparison.
 //!
-//! Every scheme supplies a shape alone. τ is one scalar for all, interpolated by [`Model`] with its curvature, and
-//! imposed exactly. Beyond the border of the lattice, shapes stay as on the border (lobes with responses keep moving).
+//! A scheme only determines the shape of the indicatrix. Its flux τ is the same for all: a scalar that [`Model`]
+//! interpolates with its curvature, imposed exactly. Beyond the border of the data, shapes are those on the border
+//! (lobes with responses continue to shift).
 
 mod blend;
 mod words;
@@ -16,18 +17,18 @@ use glam::{DQuat, DVec3};
 pub use words::{DiffuseScheme, SunScheme};
 
 impl SunScheme {
-    /// Returns q of an incident direction on the cells of `target`, lobes as means of `points`² directions per cell;
-    /// its flux is the interpolated τ. \[1/sr\]
+    /// Returns q of the indicatrix that this scheme interpolates for an incident direction, on the cells of `target`;
+    /// lobes are means of `points`² directions per cell. Its flux is the interpolated τ. \[1/sr\]
     pub fn coefficient(self, model: &Model, incident: Dir<Facade>, target: &Grid, points: usize) -> Vec<f64> {
         let place = model.lattice.locate(incident);
         Between::new(model, &place, model.recipe(incident), incident).coefficient(self, target, points)
     }
 }
 
-/// Direction between directions of the data, as every scheme needs it.
+/// Incident direction between those of the data, with the weights and the interpolated τ that every scheme uses.
 pub(super) struct Between<'a> {
     model: &'a Model,
-    /// Data directions and their barycentric weights, above 0 and of sum 1.
+    /// Indices of the surrounding incident directions of the data and their barycentric weights, above 0 and of sum 1.
     used: Vec<(usize, f64)>,
     direction: DVec3,
     recipe: Recipe,
@@ -36,7 +37,8 @@ pub(super) struct Between<'a> {
 }
 
 impl<'a> Between<'a> {
-    /// Creates the direction; `place` and `recipe` may be those of the same data with a direction left out.
+    /// Prepares the interpolation for `direction`; `place` and `recipe` may be those of the same data without one of
+    /// its directions.
     pub(super) fn new(model: &'a Model, place: &Place, recipe: Recipe, direction: Dir<Facade>) -> Self {
         let mut used: Vec<(usize, f64)> = Vec::with_capacity(3);
         for (&v, w) in place.vertices.iter().zip(place.weights).filter(|(_, w)| *w > 1e-12) {
@@ -50,7 +52,7 @@ impl<'a> Between<'a> {
         Self { model, used, direction: direction.vector(), recipe, tau }
     }
 
-    /// Returns q on the cells of `target`, τ imposed. \[1/sr\]
+    /// Returns q of the indicatrix by a scheme on the cells of `target`, with the flux τ. \[1/sr\]
     pub(super) fn coefficient(&self, scheme: SunScheme, target: &Grid, points: usize) -> Vec<f64> {
         let shape = match scheme {
             SunScheme::Responses => Blend::of_recipe(self.model, &self.recipe),
@@ -58,13 +60,13 @@ impl<'a> Between<'a> {
             SunScheme::DisplacedNearest => self.nearest(true),
             SunScheme::Superposed => self.superposed(),
         };
-        // Without any light at the vertices there is no shape; then the model's own says what there is.
+        // Without light at the vertices there is no shape; the model's own indicatrix is then used.
         let own = || Blend::of_recipe(self.model, &self.recipe);
         shape.with_flux(self.tau).unwrap_or_else(own).coefficient(self.model, target, points)
     }
 
-    /// Returns the indicatrix of the nearest direction that lets anything through; `displaced`: turned so that its flux
-    /// centroid comes to the interpolated one.
+    /// Returns the indicatrix of the nearest incident direction with τ above 0; with `displaced` it is rotated so that
+    /// its flux centroid lies in the interpolated one.
     fn nearest(&self, displaced: bool) -> Blend {
         let cosine = |v: usize| self.model.lattice.points()[v].dot(self.direction);
         let open = self.used.iter().map(|&(v, _)| v).filter(|&v| self.model.data.tau_by_direction()[v] > 0.0);
@@ -77,8 +79,8 @@ impl<'a> Between<'a> {
         blend
     }
 
-    /// Superposes every indicatrix around, turned to the interpolated centroid, with its barycentric weight. Right for
-    /// one lobe; between two, the centroid lies where no light is.
+    /// Returns the sum of the surrounding indicatrices, each rotated to the interpolated centroid, with their
+    /// barycentric weights. Right for one lobe; with two, the centroid lies between them, where there is no light.
     fn superposed(&self) -> Blend {
         let to = self.common_centroid();
         let mut blend = Blend::default();
@@ -88,7 +90,8 @@ impl<'a> Between<'a> {
         blend
     }
 
-    /// Returns the mean direction of an indicatrix by flux; `None` where nothing gets through.
+    /// Returns the mean direction of the indicatrix of an incident direction, weighted by flux; `None` if its flux is
+    /// 0.
     fn centroid(&self, vertex: usize) -> Option<DVec3> {
         let (row, grid) = (self.model.data.row(vertex), &self.model.grid);
         let cells = row.iter().zip(&grid.projected).zip(&grid.centre);

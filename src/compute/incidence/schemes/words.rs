@@ -1,28 +1,32 @@
-//! Schemes of interpolation and their keys.
+//! Schemes of interpolation between incident directions, and their keys.
 
-/// Scheme that finds the indicatrix of a direction between the data's directions.
+/// Scheme that interpolates the indicatrix (q over the emergent directions) of the sun's direction between the incident
+/// directions of measured data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum SunScheme {
-    /// Bases blended, lobes moved by their own responses: the default.
+    /// Default: smooth bases are blended with barycentric weights, and every lobe is shifted by its response, the
+    /// change of its centre with the incident direction.
     #[default]
     Responses,
-    /// First scheme of the report: the indicatrix of the nearest direction. Jumps half way.
+    /// First scheme of the IEA SHC Task 31 report: the indicatrix of the nearest incident direction. Discontinuous half
+    /// way between directions.
     Nearest,
-    /// Second scheme of the report: the nearest indicatrix, moved as a whole to the interpolated centroid. Jumps half
-    /// way.
+    /// Second scheme of the IEA SHC Task 31 report: the indicatrix of the nearest incident direction, rotated as a
+    /// whole to the interpolated flux centroid. Discontinuous half way between directions.
     DisplacedNearest,
-    /// Third scheme of the report: three indicatrices, each moved as a whole to the interpolated centroid.
+    /// Third scheme of the IEA SHC Task 31 report: weighted sum of the three surrounding indicatrices, each rotated as
+    /// a whole to the interpolated flux centroid.
     Superposed,
 }
 
 impl SunScheme {
-    /// All schemes, in the order that lists show.
+    /// All schemes, in the order of lists in the window.
     pub const ALL: [Self; 4] = [Self::Responses, Self::Nearest, Self::DisplacedNearest, Self::Superposed];
 
-    /// Key of the default in scenes, beside the default's own key.
+    /// Second key of the default scheme in scene files, beside its key `responses`.
     pub const AUTO: &'static str = "auto";
 
-    /// Returns the key in scenes.
+    /// Returns the key of the scheme in scene files.
     pub fn key(self) -> &'static str {
         match self {
             Self::Responses => "responses",
@@ -32,7 +36,7 @@ impl SunScheme {
         }
     }
 
-    /// Returns the scheme of a key.
+    /// Returns the scheme with this key; `None` if there is none.
     pub fn from_key(key: &str) -> Option<Self> {
         if key == Self::AUTO {
             return Some(Self::default());
@@ -40,34 +44,35 @@ impl SunScheme {
         Self::ALL.into_iter().find(|scheme| scheme.key() == key)
     }
 
-    /// Whether the result moves smoothly with the sun.
+    /// Whether the interpolated indicatrix changes continuously with the sun's direction.
     pub fn is_continuous(self) -> bool {
         !matches!(self, Self::Nearest | Self::DisplacedNearest)
     }
 }
 
-/// Scheme by which diffuse light passes through indicatrices known at single directions.
+/// Scheme that computes the transmission of diffuse light (sky, ground) from indicatrices measured at single incident
+/// directions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
 pub enum DiffuseScheme {
-    /// Choice by the program.
+    /// Automatic choice between the schemes by the program.
     #[default]
     Auto,
-    /// Sub-patches finer than the lattice, each with its own interpolated indicatrix.
+    /// Sub-patches finer than the spacing of the incident directions, each with its own interpolated indicatrix.
     Shift,
-    /// Indicatrix of every direction, used as given for its patch.
+    /// Indicatrix of every incident direction, used as given for the whole patch that the direction represents.
     Patch,
-    /// The report's mean filter (eq 13), half as wide as patches.
+    /// Mean filter by eq 13 of the IEA SHC Task 31 report with a circular kernel half as wide as the patches (6°).
     FilterNarrow,
-    /// The report's mean filter (eq 13), as wide as patches.
+    /// Mean filter by eq 13 of the IEA SHC Task 31 report with a circular kernel as wide as the patches (12°).
     FilterMatched,
-    /// The report's mean filter (eq 13), twice as wide as patches.
+    /// Mean filter by eq 13 of the IEA SHC Task 31 report with a circular kernel twice as wide as the patches (24°).
     FilterWide,
-    /// Filter with the shape of every patch itself, on the sharp part alone.
+    /// Mean filter with the shape of each patch as its kernel, applied to the lobes of the indicatrices alone.
     FilterPatch,
 }
 
 impl DiffuseScheme {
-    /// All schemes, in the order that lists show.
+    /// All schemes, in the order of lists in the window.
     pub const ALL: [Self; 7] = [
         Self::Auto,
         Self::Shift,
@@ -78,7 +83,7 @@ impl DiffuseScheme {
         Self::FilterPatch,
     ];
 
-    /// Returns the key in scenes and on the command line.
+    /// Returns the key of the scheme in scene files and on the command line.
     pub fn key(self) -> &'static str {
         match self {
             Self::Auto => "auto",
@@ -91,7 +96,7 @@ impl DiffuseScheme {
         }
     }
 
-    /// Returns the scheme of a key.
+    /// Returns the scheme with this key; `None` if there is none.
     pub fn from_key(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|scheme| scheme.key() == key)
     }

@@ -1,4 +1,5 @@
-//! A distribution averaged over the cells of a table of regular steps.
+//! Averages of a luminous-intensity distribution over the solid angles around the nodes of a C-γ table of constant
+//! step.
 
 use super::spots::{self, Spot};
 use super::{Aim, CGammaTable, Panel, Step, narrow};
@@ -9,29 +10,30 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// A distribution averaged over the cells of a table: what all tiles of an aperture share.
+/// Luminous-intensity distribution of an aperture, averaged over the solid angles around the nodes of a C-γ table. It
+/// is common to all tiles of the aperture.
 #[derive(Debug, Clone)]
 pub struct Averaged {
     grid: Grid,
-    /// Flux in the cell of every node, whole aperture. \[lm\]
+    /// Luminous flux of the whole aperture into the solid angle around every node, without beams. \[lm\]
     node_flux: Vec<f64>,
-    /// Flux of the whole aperture without its beams. \[lm\]
+    /// Luminous flux of the whole aperture without its beams. \[lm\]
     pub flux: Estimate,
-    /// Flux per area by quadrature, and corrected to the known flux. \[lm/m²\]
+    /// Luminous exitance by quadrature, and corrected to the exactly known values. \[lm/m²\]
     found: [f64; 2],
     /// Distribution that is averaged.
     lid: Lid,
     /// Table without beams.
     scattered: OnceLock<CGammaTable>,
-    /// Nodes of `scattered` round which light is narrow.
+    /// Indices of the nodes of `scattered` around which the intensity changes steeply.
     steep: OnceLock<Vec<usize>>,
 }
 
 impl Averaged {
-    /// Averages all but the beams.
+    /// Computes the averages of a distribution without its beams.
     ///
-    /// Functions are integrated by adaptive Gauss points, cells and bands by sub-sampling; both split at the façade's
-    /// plane and at the horizon. Negative luminances count as they are.
+    /// Components that are functions are integrated by adaptive Gauss points, those on cells and by profile angle by
+    /// sub-sampling; both are split at the façade's plane and at the horizon. Negative luminances count as negative.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
         let grid = Grid { aim, step };
         let area = lid.area();
@@ -39,7 +41,7 @@ impl Averaged {
         let mut flux = Estimate::default();
         let (mut raw, mut closed) = (0.0, 0.0);
         for part in &lid.parts {
-            // Shares of the flux in each node's cell, per area.
+            // Flux per area of the aperture \[lm/m²\] into the cell of each node.
             let (shares, total) = match part {
                 EmergentLuminance::Uniform(l) => (grid.collect(&|_| *l, Rule::Smooth), Some(PI * l)),
                 EmergentLuminance::Cells { basis, luminance } => {
@@ -55,7 +57,7 @@ impl Averaged {
             let sum: f64 = shares.iter().map(|share| share.value).sum();
             let error: f64 = shares.iter().map(|share| share.error).sum();
             let (total, error) = total.map_or((sum, error), |exact| (exact, 0.0));
-            // What the quadrature missed of a flux that is known is laid on all cells alike.
+            // If the flux is known exactly, the error of the quadrature is distributed over all cells proportionally.
             let closing = if sum != 0.0 { total / sum } else { 1.0 };
             flux += Estimate::new(total * area, error * area);
             raw += sum;
@@ -75,11 +77,12 @@ impl Averaged {
         }
     }
 
-    /// Returns the table of the whole aperture with every beam spread over the four nodes round it.
+    /// Returns the C-γ table of the whole aperture, with every beam spread over the four nodes around it.
     pub fn table(&self) -> CGammaTable {
         self.with(&self.lid.beams)
     }
 
+    /// Returns the C-γ table of the aperture with only these beams, each spread over the four nodes around it.
     fn with(&self, beams: &[SunBeam]) -> CGammaTable {
         let grid = self.grid;
         let mut node_flux = self.node_flux.clone();
@@ -118,10 +121,10 @@ impl Averaged {
         table
     }
 
-    /// Returns the table of a tile, `share` of the aperture, whose beams are as wide as what they light from there:
-    /// nodes lie close in their directions, and scattered light between the regular nodes is interpolated as a reader
-    /// does.
-    /// `narrow`: scattered light that is narrower than the tile is seen is widened, too.
+    /// Returns the C-γ table of one tile, to be used as a point luminaire at the tile's centre. `panel`: the tile;
+    /// `share`: its share of the aperture's area; `narrow`: whether scattered lobes narrower than the tile's angular
+    /// size are widened, too. Beams are widened to the directions from the centre to the area that the tile lights;
+    /// additional nodes lie close together there, and scattered light at them is interpolated linearly.
     pub fn tile(&self, panel: &Panel, share: f64, narrow: bool) -> CGammaTable {
         let scattered = self.scattered.get_or_init(|| self.with(&[]));
         let mut table = scattered.clone();
@@ -140,19 +143,20 @@ impl Averaged {
         table
     }
 
-    /// Whether the tables of all tiles of one size are the same.
+    /// Whether the tables of all tiles of one size are the same, so that one luminaire file is enough. `narrow`:
+    /// whether narrow scattered lobes are widened.
     pub fn same_for_all(&self, narrow: bool) -> bool {
         let steep = || narrow::nodes(self.scattered.get_or_init(|| self.with(&[])));
         self.lid.beams.iter().all(|beam| beam.flux == 0.0) && (!narrow || self.steep.get_or_init(steep).is_empty())
     }
 }
 
-/// Assumption of the quadrature on light inside a cell.
+/// Assumption of the quadrature on the luminance inside the solid angle of a node.
 #[derive(Clone, Copy, PartialEq)]
 enum Rule {
-    /// Smooth nearly everywhere: Gauss points, refined where two orders disagree.
+    /// Luminance smooth nearly everywhere: Gauss points, refined where two orders disagree.
     Smooth,
-    /// Steps at borders that run anywhere: many points of equal weight.
+    /// Luminance with steps along arbitrary lines: many points of equal weight.
     Piecewise,
 }
 
@@ -199,7 +203,7 @@ impl Grid {
     fn collect(self, luminance: &(dyn Fn(Dir<Facade>) -> f64 + Sync), rule: Rule) -> Vec<Estimate> {
         let delta = self.step.radians();
         let angles = self.angles();
-        // Flux per steradian at the direction, seen by through-name.
+        // Flux per area of the aperture and per dC dγ.
         let density = |c: f64, gamma: f64| {
             let twin = self.aim.direction(c, gamma).through_name();
             let cos_theta = twin.vector().z;
@@ -209,7 +213,7 @@ impl Grid {
             .into_par_iter()
             .map(|node| {
                 let (c, gamma) = ((node / angles) as f64 * delta, (node % angles) as f64 * delta);
-                // The façade's plane and the horizon run through nodes: cells are cut there.
+                // Nodes lie in the façade's plane and on the horizon: their cells are divided there.
                 let cuts = [[-0.5, 0.0], [0.0, 0.5]];
                 let mut sum = Estimate::default();
                 for [c0, c1] in cuts {
@@ -232,7 +236,7 @@ impl Grid {
             .collect()
     }
 
-    /// Spreads a beam over the four nodes round it so that its centre stays where it is in C and γ.
+    /// Spreads a beam over the four nodes around it so that its mean direction in C and γ is unchanged.
     fn lay(self, node_flux: &mut [f64], beam: &SunBeam) {
         let delta = self.step.radians();
         let (c, gamma) = self.aim.angles(beam.direction);

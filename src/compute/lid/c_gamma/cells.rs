@@ -1,4 +1,4 @@
-//! Cells round the nodes of a table, and their weights in a zonal sum.
+//! Solid angles (cells) around the nodes of a C-γ table, and their weights in a zonal sum.
 
 use super::{Aim, weights};
 use glam::DVec3;
@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 /// `a_beam_through_a_tile_lights_its_outline_evenly_and_nothing_beside`.
 const POINTS: usize = 4;
 
-/// Nodes and the cells round them.
+/// Nodes of a C-γ table and the cells around them.
 pub(super) struct Cells<'a> {
     pub aim: Aim,
     pub c: &'a [f64],
@@ -22,7 +22,7 @@ impl<'a> Cells<'a> {
         Self { aim, c, gamma, weights: weights(c, gamma) }
     }
 
-    /// Returns the limits of a plane's cell in C, unwrapped. \[rad\]
+    /// Returns the limits in C of the cells of a plane, not reduced to 0 … 2π. \[rad\]
     pub fn c_cell(&self, plane: usize) -> [f64; 2] {
         let (turn, count) = (2.0 * PI, self.c.len());
         let before = if plane > 0 { self.c[plane - 1] } else { self.c[count - 1] - turn };
@@ -42,7 +42,8 @@ impl<'a> Cells<'a> {
         self.weights.0[node / self.gamma.len()] * self.weights.1[node % self.gamma.len()]
     }
 
-    /// Returns the mean of an intensity over a cell, by solid angle.
+    /// Returns the mean of a luminous intensity over a cell with these limits in C and γ \[rad\], weighted by solid
+    /// angle. `intensity` is a function of the direction of propagation in the façade frame.
     pub fn mean(&self, intensity: &dyn Fn(DVec3) -> f64, c: [f64; 2], gamma: [f64; 2]) -> f64 {
         let at = |range: [f64; 2], k: usize| range[0] + (range[1] - range[0]) * (k as f64 + 0.5) / POINTS as f64;
         let (mut sum, mut weight) = (0.0, 0.0);

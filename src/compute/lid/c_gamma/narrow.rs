@@ -1,6 +1,7 @@
-//! Scattered light that is narrower than a tile is seen: sent from one point it lights a spot as narrow as itself,
-//! where the tile lights a spot as wide as the tile. Round such light a table holds what the tile does on the room's
-//! surfaces.
+//! Widening of scattered lobes that are narrower than the angular size of a tile seen from the lit surface. A luminaire
+//! file makes the tile a point source, whose narrow lobe lights a small spot, whereas the tile lights an area as wide
+//! as itself. Near such lobes the table is given the intensities that, sent from the tile's centre, cause the
+//! illuminance of the room's surfaces by the whole tile.
 
 use super::cells::Cells;
 use super::spots::MOST;
@@ -9,21 +10,21 @@ use crate::compute::lid::Lid;
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Relative difference between neighbouring nodes above which light counts as narrow. Chosen; held with the constants
-/// below by the test `narrow_scattered_light_is_as_wide_as_the_tile_and_what_it_lights`: within 6 % of a sum over the
-/// tile.
+/// Relative difference of the intensities at neighbouring nodes above which the distribution counts as narrow there.
+/// Chosen; held with the constants below by the test
+/// `narrow_scattered_light_is_as_wide_as_the_tile_and_what_it_lights`: within 6 % of a sum over the tile.
 const STEEP: f64 = 0.3;
-/// Share of the largest intensity up to which light never counts as narrow. Chosen: cost; light that dim is left as it
-/// is.
+/// Share of the largest intensity up to which the distribution never counts as narrow. Chosen: cost; such low
+/// intensities are left unchanged.
 const DIM: f64 = 0.02;
-/// Points per side of the tile, for a mean over it and over the node's cell. Chosen: cost, see [`STEEP`]; a prime, see
-/// [`mean`].
+/// Number of points per side of the tile, for a mean over it and over the node's cell. Chosen: cost, see [`STEEP`]; a
+/// prime, see [`mean`].
 const POINTS: usize = 7;
-/// Maximum number of parts into which the regular step is divided where light is narrow. Chosen: size of the files; see
-/// [`STEEP`].
+/// Maximum number of parts into which the regular step is divided where the distribution is narrow. Chosen: size of the
+/// files; see [`STEEP`].
 const FINER: usize = 3;
 
-/// Returns the nodes round which light is narrow.
+/// Returns the indices of the nodes around which the intensity of a table changes steeply (more than [`STEEP`]).
 pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
     let (planes, angles) = (table.planes(), table.angles());
     let brightest = table.intensity.iter().copied().fold(0.0, f64::max);
@@ -39,9 +40,10 @@ pub(super) fn nodes(table: &CGammaTable) -> Vec<usize> {
     (0..planes * angles).filter(around).collect()
 }
 
-/// Replaces the mean intensity round the nodes `steep`, as far from them as the tile is seen wide, by what a tile,
-/// `share` of the aperture, does on the room's surfaces; nodes lie closer there. The flux there and that of the table
-/// stay.
+/// Widens narrow lobes in the table of an aperture for a tile that holds `share` of its area: near the nodes `steep`,
+/// mean intensities are replaced by those that, sent from the tile's centre, cause the illuminance of the room's
+/// surfaces by the whole tile. *Near* means within half the angular size of the tile seen from the lit surface, plus
+/// one step. Nodes are added there. The flux near these nodes and that of the whole table are unchanged.
 pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: &Panel, share: f64) {
     if steep.is_empty() {
         return;
@@ -74,7 +76,8 @@ pub(super) fn widen(table: &mut CGammaTable, steep: &[usize], lid: &Lid, panel: 
     table.close();
 }
 
-/// Marks the regular nodes that are no farther from a steep one than the tile is seen wide.
+/// Marks the regular nodes whose angular distance from a node of `steep` is at most one step plus half the angular size
+/// of the tile (of a part of it, where host programs subdivide it), seen from the lit surface.
 fn near(table: &CGammaTable, steep: &[usize], panel: &Panel) -> Vec<bool> {
     let (planes, angles) = (table.planes(), table.angles());
     let step = table.step.degrees().to_radians();
@@ -96,7 +99,8 @@ fn near(table: &CGammaTable, steep: &[usize], panel: &Panel) -> Vec<bool> {
     near
 }
 
-/// Adds nodes between neighbours that are both marked, as many as there is room for.
+/// Returns the nodes with up to `FINER − 1` additional ones between neighbours that are both marked; fewer if the table
+/// would exceed `most` nodes.
 fn finer(nodes: &[f64], marked: &[bool], end: f64, most: usize) -> Vec<f64> {
     let pairs = nodes.iter().zip(nodes.iter().skip(1).chain([&end]));
     let both = marked.iter().zip(marked.iter().cycle().skip(1)).map(|(a, b)| *a && *b);
@@ -114,7 +118,8 @@ fn finer(nodes: &[f64], marked: &[bool], end: f64, most: usize) -> Vec<f64> {
     list
 }
 
-/// Returns the mean over a node's cell of what the tile does, as an intensity from its middle. \[cd\]
+/// Returns the mean over a node's cell of the luminous intensity that, sent from the tile's centre, causes the
+/// illuminance of the room's surfaces by the whole tile. \[cd\]
 fn mean(cells: &Cells<'_>, node: usize, lid: &Lid, panel: &Panel) -> f64 {
     let (plane, angle) = (node / cells.gamma.len(), node % cells.gamma.len());
     let (away, _) = panel.reach(cells.aim.direction(cells.c[plane], cells.gamma[angle]).0.vector());

@@ -1,12 +1,13 @@
-//! Rectangle of the aperture in its room: illuminance of its light on the surfaces that it reaches.
+//! Rectangle of an aperture in its room, and the intensities that, sent from its centre, light the room's surfaces in
+//! the same way.
 
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
 use crate::compute::lid::tiling::{landing, parts};
 use crate::compute::lid::{Lid, SunBeam};
 use glam::DVec3;
 
-/// Angular diameter of the sun's disc: minimum angular width of what a beam lights. \[rad\] Twice the mean radius of
-/// 0.2665°, `SUN_HALF_ANGLE`.
+/// Angular diameter of the sun's disc: minimum angular width of the area that a beam lights. \[rad\] Twice the mean
+/// radius of 0.2665°, `SUN_HALF_ANGLE`.
 const DISC: f64 = 9.3e-3;
 
 /// Distance over which a beam fades on both sides of an edge where another tile or part continues, as a share of the
@@ -16,48 +17,50 @@ const DISC: f64 = 9.3e-3;
 /// `beams_of_tiles_side_by_side_leave_no_ridge_between_them`.
 const FADE: f64 = 1.0 / 6.0;
 
-/// Rectangle of the aperture.
+/// Rectangle of an aperture (the whole, a tile or a part of it) with the room that it lights.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Panel {
-    /// Centre in room axes. \[m\]
+    /// Centre of the rectangle in the room's frame. \[m\]
     pub centre: DVec3,
-    /// Size along x_F and y_F. \[m\]
+    /// Size of the rectangle along x_F and y_F of the façade frame. \[m\]
     pub size: [f64; 2],
     /// Surface that the rectangle lies in.
     pub surface: Surface,
     /// Width, depth and height of the room. \[m\]
     pub room: DVec3,
-    /// Whether the aperture ends at a side: first and last side along x_F, first and last side along y_F.
+    /// Whether the aperture ends at each side of the rectangle: `[[left, right], [lower, upper]]`, that is at the
+    /// smaller and larger x_F, at the smaller and larger y_F.
     pub rim: [[bool; 2]; 2],
 }
 
 impl Panel {
-    /// Returns the distance \[m\] that light from the centre travels in a direction of façade axes, and the axis across
-    /// which the surface lies that it meets.
+    /// Returns the distance \[m\] from the centre to the room surface that light meets in a direction of the façade
+    /// frame, and the index of the room axis perpendicular to that surface.
     pub(super) fn reach(&self, direction: DVec3) -> (f64, usize) {
         landing(self.room, self.centre, self.surface.room_from_facade(direction))
     }
 
-    /// Returns the distance from the centre to the place that a beam lights. \[m\]
+    /// Returns the distance from the centre to the room surface that a beam lights. \[m\]
     pub(super) fn distance(&self, beam: &SunBeam) -> f64 {
         self.reach(beam.direction.0.vector()).0
     }
 
-    /// Returns one of the parts, about the same centre, into which a host program cuts the rectangle at `distance`.
-    /// \[m\]
+    /// Returns one of the parts into which a host program divides the rectangle for points at `distance` \[m\], moved
+    /// to the rectangle's centre.
     pub(super) fn part(&self, distance: f64) -> Self {
         let count = parts(self.size, distance);
-        // All parts share a distribution: none of its sides ends the aperture for all of them.
+        // All parts share one intensity distribution, so that no side counts as a border of the aperture.
         let rim = if count > 1 { [[false; 2]; 2] } else { self.rim };
         Self { size: self.size.map(|side| side / count as f64), rim, ..*self }
     }
 
-    /// Returns how far beyond each side of the rectangle its beams reach. \[m\]
+    /// Returns the distance by which beams fade beyond each side of the rectangle; 0 where the aperture ends. \[m\]
     pub(super) fn beyond(&self) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| self.rim[axis].map(|ends| if ends { 0.0 } else { FADE * self.size[axis] }))
     }
 
-    /// Returns the rectangle with sides widened to what the sun's disc lights by a beam through one point, if narrower.
+    /// Returns the rectangle with its sides enlarged, if they are shorter, to the size of the spot that a beam through
+    /// one point lights because of the sun's diameter.
     pub(super) fn under(&self, beam: &SunBeam) -> Self {
         let (way, distance) = (beam.direction.0.vector(), self.distance(beam));
         let across = |along: f64| (1.0 - along * along).max(1e-6).sqrt();
@@ -65,9 +68,10 @@ impl Panel {
         Self { size: [side(0, way.x), side(1, way.y)], ..*self }
     }
 
-    /// Returns the luminous intensity that, sent from the centre, lights the room's surfaces as a beam through the
-    /// rectangle does: alike all over its outline, and fading across sides beyond which the aperture continues, so that
-    /// the light of neighbours there adds up. \[cd\] The direction is in façade axes.
+    /// Returns the luminous intensity that, sent from the centre, lights the room's surfaces like a beam through the
+    /// rectangle: constant illuminance within its outline, fading across sides beyond which the aperture continues, so
+    /// that the illuminances by neighbouring tiles add up to a constant. \[cd\] `direction`: of propagation, façade
+    /// frame.
     pub(super) fn of_beam(&self, beam: &SunBeam, direction: DVec3) -> f64 {
         if direction.z >= 0.0 {
             return 0.0;
@@ -94,8 +98,9 @@ impl Panel {
         share * beam.flux * away * away * across(way) / (w * h * -way.z * across(direction))
     }
 
-    /// Returns the luminous intensity that, sent from the centre, lights the room's surfaces as scattered light from
-    /// the point (`x`, `y`) \[m\] beside the centre does, if the whole rectangle emitted from that point. \[cd\]
+    /// Returns the luminous intensity that, sent from the centre, causes the illuminance of the room's surfaces by
+    /// scattered light of the whole rectangle sent from the point (`x`, `y`) \[m\] beside the centre. \[cd\]
+    /// `direction`: of propagation, façade frame.
     pub(super) fn of_point(&self, lid: &Lid, [x, y]: [f64; 2], direction: DVec3) -> f64 {
         if direction.z >= 0.0 {
             return 0.0;
@@ -110,8 +115,8 @@ impl Panel {
         lid.luminance(Emergent(own)) * -own.vector().z * self.size[0] * self.size[1] * nearer
     }
 
-    /// Returns the direction from the centre to the place that a beam through the point (`x`, `y`) \[m\] beside it
-    /// lights.
+    /// Returns the direction from the centre to the point of the room's surfaces that a beam through the point (`x`,
+    /// `y`) \[m\] beside the centre lights.
     pub(super) fn landing_of(&self, beam: &SunBeam, [x, y]: [f64; 2]) -> Emergent {
         let way = beam.direction.0.vector();
         let from = self.surface.room_from_facade(DVec3::new(x, y, 0.0));

@@ -1,11 +1,11 @@
-//! Beams in a table, as wide as what they light: seen from one point, a beam as narrow as the sun lights a spot where
-//! the area that it leaves lights its own outline.
+//! Widening of the beams in a C-γ table: a beam of the sun's width from one point would light a small spot, whereas the
+//! rectangle that the beam leaves lights an area of its own outline.
 //!
-//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, alike on each of
-//! them. From the rectangle's middle that is a spot of directions whose intensity is what makes it so there. Where the
-//! aperture ends, its edges are sharp; where another tile continues, it fades across them ([`Panel`]). Nodes of C and γ
-//! lie so close round it that what a reader interpolates between them is the spot, its sharp edges blurred by an eighth
-//! of its width at most.
+//! A beam of parallel light through a rectangle lights the rectangle's outline on the room's surfaces, with constant
+//! illuminance on each of them. Seen from the rectangle's centre, this area covers a range of directions (*spot*),
+//! whose intensities are chosen to cause that illuminance. Where the aperture ends, its edges are sharp; where another
+//! tile continues, it fades across them ([`Panel`]). Nodes of C and γ lie so close together there that linear
+//! interpolation between them reproduces the spot, its sharp edges blurred by an eighth of its width at most.
 
 use super::cells::Cells;
 use super::{Aim, CGammaTable, Panel, Widened};
@@ -14,7 +14,8 @@ use crate::compute::lid::SunBeam;
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// A beam that leaves a rectangle.
+/// Beam with the rectangle of the aperture that it leaves: the directions from the centre to the lit area, with their
+/// intensities.
 pub(super) struct Spot {
     /// Direction and flux of the beam.
     pub beam: SunBeam,
@@ -35,8 +36,8 @@ const EDGE: f64 = 0.2;
 /// Maximum number of planes and of angles. Limits of readers of EULUMDAT, among them this program's
 /// (`limits::LUMINAIRE_PLANES`, `LUMINAIRE_ANGLES`): half a degree all round, the plane at 360° not repeated.
 pub(super) const MOST: [usize; 2] = [720, 361];
-/// Points along a side of a spot, for its limits: a corner, and seven on the side, which is curved in C and γ. Chosen;
-/// see [`ACROSS`].
+/// Number of points along a side of a spot for the search of its limits: a corner, and seven on the side, which is
+/// curved in C and γ. Chosen; see [`ACROSS`].
 const ALONG: usize = 8;
 
 impl Spot {
@@ -44,8 +45,8 @@ impl Spot {
         self.panel.of_beam(&self.beam, direction)
     }
 
-    /// Returns the limits in C (from … to, from below 0 where the spot lies across C0; a whole turn where the pole is
-    /// inside) and in γ, the narrower side as it is seen, and the largest sine of γ. \[rad\]
+    /// Returns the limits of the spot in C (the lower below 0 where the spot lies across C0; a full turn where it
+    /// contains a pole) and in γ, the smaller angular size of the two, and the largest sine of γ. \[rad\]
     fn limits(&self, aim: Aim) -> ([f64; 2], [f64; 2], f64, f64) {
         let beyond = self.panel.beyond();
         let reach = |axis: usize, at: f64| at * (0.5 * self.panel.size[axis] + beyond[axis][usize::from(at > 0.0)]);
@@ -71,8 +72,9 @@ impl Spot {
     }
 }
 
-/// Adds nodes at most `step` apart between two edges, and two close to each edge, one on either side, so that it is
-/// sharp and where it belongs. Inside, none comes nearer than half a step to one that is there.
+/// Adds nodes at most `step` apart between two edges, and two close to each edge, one on either side, so that the edge
+/// is sharp and in the right position. Inside, no node is added within half a step of an existing one. `place` maps an
+/// angle to the table's range; `None` if it lies outside.
 fn add_nodes(list: &mut Vec<f64>, [from, to]: [f64; 2], step: f64, place: &dyn Fn(f64) -> Option<f64>) {
     let count = ((to - from) / step).ceil().max(1.0);
     let step = (to - from) / count;
@@ -89,7 +91,7 @@ fn add_nodes(list: &mut Vec<f64>, [from, to]: [f64; 2], step: f64, place: &dyn F
     }
 }
 
-/// Puts spots into a table of scattered light.
+/// Adds the intensities of spots to a table of scattered light, with additional nodes.
 pub(super) fn lay(table: &mut CGammaTable, spots: &[Spot]) {
     if spots.is_empty() {
         return;
@@ -108,7 +110,7 @@ pub(super) fn lay(table: &mut CGammaTable, spots: &[Spot]) {
             add_nodes(&mut gamma, *gamma_range, step, &|angle| (0.0..=PI).contains(&angle).then_some(angle));
             steps = steps.map(|least| least.min(step));
         }
-        // So coarse that nothing is added any more.
+        // Stops when the table is small enough, or so coarse that no node is added.
         if (c.len() <= MOST[0] && gamma.len() <= MOST[1]) || coarser > 100.0 {
             break (c, gamma, steps);
         }
@@ -135,7 +137,8 @@ pub(super) fn lay(table: &mut CGammaTable, spots: &[Spot]) {
     });
 }
 
-/// Adds the means of a spot's intensity over the cells, so that a zonal sum finds its flux.
+/// Adds the means of a spot's intensity over the cells to `values`, scaled so that a zonal sum gives exactly the flux
+/// of its beam.
 fn add(cells: &Cells<'_>, values: &mut [f64], spot: &Spot, c_range: [f64; 2], gamma_range: [f64; 2]) {
     let (turn, angles) = (2.0 * PI, cells.gamma.len());
     let meets = |[low, high]: [f64; 2], [from, to]: [f64; 2]| low <= to && high >= from;
@@ -161,7 +164,7 @@ fn add(cells: &Cells<'_>, values: &mut [f64], spot: &Spot, c_range: [f64; 2], ga
         own.iter().for_each(|(node, value)| values[*node] += spot.beam.flux / found * value);
         return;
     }
-    // Narrower than what the points of all cells see: all of it in the nearest cell.
+    // A spot narrower than the sampling of the cells goes to the nearest cell as a whole.
     let (c, gamma) = cells.aim.angles(spot.beam.direction);
     let inside = |[low, high]: [f64; 2], at: f64| low <= at && at <= high;
     let plane = (0..cells.c.len()).find(|plane| inside(cells.c_cell(*plane), c)).unwrap_or(0);

@@ -1,31 +1,32 @@
-//! Function of direction of which only means over cells are known: the smoothest that gives these means, and its
-//! uncertainty. Gaussian-process regression with integrals as observations (Rasmussen & Williams 2006, ch. 2, 4 and 5).
+//! Estimate of a function of direction from its means over cells, with the standard error of the estimate.
+//! Gaussian-process regression with integrals as observations (Rasmussen & Williams 2006, ch. 2, 4 and 5).
 //!
-//! What lets light through unscattered is mostly simple: slats know the profile angle alone, panes the angle of
-//! incidence, holes both. The covariance is a product over the two profile angles and θ, each with its own length, and
-//! the data choose the lengths by their likelihood: an endless length makes a function that does not depend on that
-//! angle, and then 145 cells that overlap in the other angles resolve the one that matters far below their own width.
+//! Unscattered transmission mostly depends on few angles: of slats on the profile angle alone, of panes on the angle of
+//! incidence, of holes on both. The covariance is a product over the two profile angles and θ, each with its
+//! correlation length. The lengths are those of the largest likelihood: with an infinite length the function does not
+//! depend on that angle, and then 145 cells that overlap in the other angles resolve the one that matters far below
+//! their width.
 
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::quadrature::gauss_legendre;
 use rayon::prelude::*;
 
-/// Correlation lengths that are tried, in radians; 0 stands for an infinite one. About halved from the range of the
-/// angles, π, down to the width of Klems cells, 10° to 15°, below which means show nothing.
+/// Correlation lengths that are tried \[rad\]; 0 stands for an infinite one. About halved from the range of the angles,
+/// π, down to the width of Klems cells, 10° to 15°, below which means show nothing.
 const LENGTHS: [f64; 6] = [0.0, 3.0, 1.5, 0.75, 0.4, 0.2];
-/// Starting points of the search for lengths: one profile angle, the other, θ, and mixtures. Indices of [`LENGTHS`].
-/// Chosen: cost; the search continues to neighbours as long as these are more likely. Held with [`VARIANCES`] by
-/// `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`.
+/// Starting points of the search for correlation lengths, as indices of [`LENGTHS`] for the profile angle about x, the
+/// profile angle about y, and θ. Chosen: cost; the search continues to neighbours as long as these are more likely.
+/// Held with [`VARIANCES`] by `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`.
 const STARTS: [[usize; 3]; 7] = [[3, 0, 0], [0, 3, 0], [0, 0, 2], [3, 3, 0], [3, 0, 2], [0, 3, 2], [2, 1, 2]];
-/// Variances of the function itself that are tried: half decades up to 3, since strengths and transmittances are shares
+/// Prior variances of the function that are tried: half decades up to 3, since strengths and transmittances are shares
 /// of 1.
 const VARIANCES: [f64; 7] = [3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0, 3.0];
-/// Points across and along a cell for its mean; more in cells wider than this, over which profile angles go far.
-/// \[rad\] Chosen: cost; what few points miss is stated in the second error of `NOISE`.
+/// Numbers of points across and along a cell for its mean, and minimum width of the cell in φ \[rad\] for them. Chosen:
+/// cost; the error by few points is stated in the second of the `NOISE`.
 const POINTS: [([usize; 2], f64); 3] = [([4, 8], 0.45), ([3, 5], 0.3), ([2, 3], 0.0)];
 
-/// Weighted direction with its profile angles and θ.
+/// Direction in a cell with its weight in the cell's mean, and the angles that the covariance depends on.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Point {
     pub(super) direction: Dir<Facade>,
@@ -34,7 +35,7 @@ pub(super) struct Point {
 }
 
 impl Point {
-    /// Returns the point's share of the cell.
+    /// Returns the weight of the point in the mean over its cell.
     pub(super) fn weight(&self) -> f64 {
         self.weight
     }
@@ -51,7 +52,7 @@ fn angles(direction: Dir<Facade>) -> [f64; 3] {
     [v.y.atan2(v.z), v.x.atan2(v.z), direction.theta()]
 }
 
-/// Returns points of a cell whose weights add up to 1, by projected solid angle.
+/// Returns points of a cell with weights by projected solid angle; the weights add up to 1.
 pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
     let own = basis.cell(cell);
     let width = own.width * own.theta().sin();
@@ -71,17 +72,17 @@ pub(super) fn points(basis: &RingBasis, cell: usize) -> Vec<Point> {
     list
 }
 
-/// Observation of the functions: the sum of their integrals over points, with an error.
+/// Observation of two functions: the sum of their weighted means over points, with its standard error.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Observation {
-    /// Points of each function.
+    /// Points at which each of the two functions contributes to the observation.
     pub(super) points: [Vec<Point>; 2],
     pub(super) value: f64,
     /// Standard error of `value`.
     pub(super) noise: f64,
 }
 
-/// Lengths and variance of one function's covariance.
+/// Correlation lengths \[rad\] and prior variance of one function.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Covariance {
     lengths: [f64; 3],
@@ -89,7 +90,8 @@ pub(super) struct Covariance {
 }
 
 impl Covariance {
-    /// Matérn 3/2: continuous with its slope, so that the kinks of a cut-off are not forbidden.
+    /// Returns the covariance of the function at two points, each given by its angles \[rad\]: a product of Matérn 3/2
+    /// functions, which allow nearly abrupt changes of the slope, like those at a cut-off.
     fn between(&self, a: &[f64; 3], b: &[f64; 3]) -> f64 {
         let (mut product, mut sum) = (self.variance, 0.0);
         for k in 0..3 {
@@ -106,7 +108,7 @@ impl Covariance {
         a.iter().map(|p| p.weight * b.iter().map(|q| q.weight * self.between(&p.at, &q.at)).sum::<f64>()).sum()
     }
 
-    /// Finds the most likely covariance for the observations of one function (its number `of`), alone.
+    /// Returns the covariance of the largest likelihood for observations of the function with index `of` alone.
     pub(super) fn most_likely(observations: &[Observation], of: usize) -> Self {
         let judge = |pick: [usize; 3]| -> (f64, Self) {
             let own = Self { lengths: pick.map(|k| LENGTHS[k]), variance: 1.0 };
@@ -139,7 +141,7 @@ impl Covariance {
     }
 }
 
-/// Returns a symmetric matrix over the observations, row by row.
+/// Returns the symmetric matrix with an entry for each pair of observations, row by row.
 fn gram(observations: &[Observation], entry: impl Fn(&Observation, &Observation) -> f64 + Sync) -> Vec<f64> {
     let n = observations.len();
     let rows: Vec<Vec<f64>> =
@@ -153,8 +155,8 @@ fn gram(observations: &[Observation], entry: impl Fn(&Observation, &Observation)
     all
 }
 
-/// Returns the lower triangle L of the matrix plus the observations' noise, LLᵀ; `None` where rounding leaves it
-/// indefinite.
+/// Returns the lower triangular matrix L of the Cholesky decomposition LLᵀ of the matrix plus the squared errors of the
+/// observations on its diagonal; `None` if rounding makes it indefinite.
 fn factor(observations: &[Observation], mut matrix: Vec<f64>) -> Option<Vec<f64>> {
     let n = observations.len();
     for (i, one) in observations.iter().enumerate() {
@@ -201,7 +203,8 @@ fn backward(factor: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Returns the logarithm of the likelihood but for a constant.
+/// Returns the logarithm of the likelihood of the observations, except for a constant; `None` if `matrix`, their
+/// covariance, is indefinite.
 fn likelihood(observations: &[Observation], matrix: Vec<f64>) -> Option<f64> {
     let n = observations.len();
     let factor = factor(observations, matrix)?;
@@ -211,27 +214,28 @@ fn likelihood(observations: &[Observation], matrix: Vec<f64>) -> Option<f64> {
     Some(-0.5 * x.iter().map(|x| x * x).sum::<f64>() - log)
 }
 
-/// Functions, as far as the observations determine them.
+/// Two functions of direction, estimated from observations of their means (Gaussian-process regression).
 pub(super) struct MeanField {
     observations: Vec<Observation>,
     covariances: [Covariance; 2],
     factor: Vec<f64>,
-    /// Squared deviation of each observation from what all others predict, in units of the expected deviation.
+    /// Squared deviation of each observation from its prediction by all others, relative to the expected one.
     surprise: Vec<f64>,
 }
 
-/// Value of a function at a direction.
+/// Estimated value of a function in a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct At {
     pub(super) value: f64,
     /// Standard error of `value`.
     pub(super) error: f64,
-    /// Weights of the observations in the value.
+    /// Weights of the observations in `value`.
     pub(super) weights: Vec<f64>,
 }
 
 impl MeanField {
-    /// Creates the functions; `None` where the observations contradict each other beyond arithmetic.
+    /// Fits the functions to observations; `None` if the covariance matrix of the observations is numerically
+    /// indefinite.
     pub(super) fn new(observations: Vec<Observation>, covariances: [Covariance; 2]) -> Option<Self> {
         let n = observations.len();
         let entry = |a: &Observation, b: &Observation| {
@@ -254,7 +258,7 @@ impl MeanField {
         Some(Self { observations, covariances, factor, surprise })
     }
 
-    /// Computes function number `of` at a direction.
+    /// Computes the function with index `of` in a direction, with its standard error.
     pub(super) fn at(&self, of: usize, direction: Dir<Facade>) -> At {
         let (here, covariance) = (angles(direction), &self.covariances[of]);
         let covered = |one: &Observation| -> f64 {
@@ -266,8 +270,8 @@ impl MeanField {
         let variance = covariance.variance - weights.iter().map(|w| w * w).sum::<f64>();
         backward(&self.factor, &mut weights);
         let value = weights.iter().zip(&self.observations).map(|(w, one)| w * one.value).sum();
-        // Where the function has kinks its neighbourhood is worse known than lengths chosen for the whole say. Darkness
-        // surprises nobody and tells nothing of that.
+        // Near kinks the function is less certain than the correlation length fitted to all data implies. Dark cells
+        // carry no information about that and are left out.
         let light =
             || weights.iter().zip(&self.observations).zip(&self.surprise).filter(|((_, one), _)| one.value > 0.0);
         let near: f64 = light().map(|((w, _), _)| w * w).sum();

@@ -1,10 +1,10 @@
-//! Sharp beams of direct sun from patch-averaged data. A Klems cell is 10–15° wide, and what a file keeps of a beam is
-//! the mean over an incident cell of its strength, lying in the emergent cell that it leads to. From all these means
-//! together the beam for the actual sun is computed, as sharp as the disc, with the uncertainty of its strength; the
-//! rest stays on cells.
+//! Extraction of sharp beams of direct sun from patch-averaged data. A Klems cell is 10–15° wide; of a beam, a file
+//! contains the mean over an incident cell of its strength (share of the incident flux), blurred over the emergent cell
+//! that it leads to. From all these means together the beam for the actual sun is computed, as narrow as the sun's
+//! disc, with the uncertainty of its strength; the other light remains on cells.
 //!
-//! The method follows Radiance's `aBSDF`, which extracts the undeviated peak from the data; that it is a mean, and what
-//! may be said of its strength between the cells, is not in there.
+//! The method follows Radiance's `aBSDF`, which extracts the undeviated peak from the data, but takes into account that
+//! its strength is a mean over a cell, and estimates it between the centres of cells.
 
 mod mean_field;
 mod separation;
@@ -16,80 +16,85 @@ use crate::compute::direction::{Dir, Facade};
 use mean_field::{Covariance, MeanField, Observation, Point};
 use separation::{Path, Reached, Separation};
 
-/// Ratio to its surroundings above which a cell stands out, as in Radiance.
+/// Ratio of a cell's q to that of the surrounding cells above which the cell counts as a peak. Source: Radiance's
+/// `aBSDF`.
 const STANDS_OUT: f64 = 1.5;
-/// Largest flux that the cells around the peaks hold above their own surroundings, as a share of the flux in the peaks;
-/// with more the light is a wide lobe and not a beam. At this share the stated uncertainty, twice the share, is all of
-/// the beam.
+/// Maximum flux of the cells around the peaks above their surroundings, as a share of the flux in the peaks; with more
+/// the light is a wide lobe and not a beam. At this share the stated uncertainty, twice the share, is the whole beam.
 const LOBE: f64 = 0.5;
-/// Errors of a beam's flux in a cell: digits of the data, a share of the strongest flux (for what few points in a cell
-/// miss), a share of its own flux, and a share of the subtracted background. Chosen with [`DARK`], [`ROUGH`] and
-/// [`LEAST`]; held by `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`, which
-/// counts 95 % of the sensors within the stated uncertainty, and that at most six times the error.
+/// Standard errors of a beam's flux in a cell: absolute, by the digits of the data; relative to the strongest flux, by
+/// the few points in a cell; relative to the flux itself; relative to the subtracted background. Chosen with [`DARK`],
+/// [`ROUGH`] and [`LEAST`]; held by
+/// `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`, which counts 95 % of the
+/// sensors within the stated uncertainty, and that at most six times the error.
 const NOISE: [f64; 4] = [2e-4, 2e-3, 0.01, 0.3];
-/// Limits of a dark beam cell: flux up to which it counts as none beside the subtracted background, largest background
-/// with which it may, and error of a point that is then known to be dark, as a share of the strongest flux. Chosen; see
-/// [`NOISE`].
+/// Limits of a dark cell: beam flux up to which the cell counts as dark beside the subtracted background, maximum
+/// background with which it may, and error of a point that is then known to be dark, as a share of the strongest flux.
+/// Chosen; see [`NOISE`].
 const DARK: [f64; 3] = [3e-4, 0.02, 1e-3];
-/// Relative error of the light beside beams, per incident cell. Chosen; see [`NOISE`].
+/// Relative standard error of the transmittance without beams, per incident cell. Chosen; see [`NOISE`].
 const ROUGH: f64 = 0.02;
-/// Number of standard errors that are stated for a strength or a transmittance; with the other uncertainties more than
-/// 95 % of sensors are covered, as `tests/scenes/beams_in_cells` counts.
+/// Number of standard errors that is stated as the uncertainty of a strength or a transmittance; with the other
+/// uncertainties more than 95 % of sensors are covered, as `tests/scenes/beams_in_cells` counts.
 const ERRORS: f64 = 1.6;
-/// Share of the strongest strength below which a strength may be a rounded-off cut-off; seen on flat and curved slats.
+/// Strength, relative to the strongest one, below which a beam may be an artefact of a smoothed cut-off. Found on flat
+/// and curved slats.
 const CUT_OFF: f64 = 0.03;
-/// Share of the sum of two beams that either may be wrong by where the data hold them in one cell: each lies between 0
-/// and the sum, half of it to either side of the middle.
+/// Uncertainty of each of two beams that lie in one emergent cell of the data, as a share of their sum: each strength
+/// lies between 0 and the sum, half of it to either side of the middle.
 const MIXED: f64 = 0.5;
-/// Minimum relative uncertainty of anything that is extracted from cells. Chosen; see [`NOISE`].
+/// Minimum relative uncertainty of a strength or luminance that is extracted from cells. Chosen; see [`NOISE`].
 const LEAST: f64 = 0.01;
-/// Maximum number of incident cells in which beams are looked for, the nearest to the sun: finer cells need no farther
-/// ones. Chosen: cost, which grows with the cube; the 145 cells of Klems and of Tregenza are all used.
+/// Maximum number of incident cells whose data are used for the extraction of beams, the nearest to the sun; with finer
+/// cells, more distant ones are not needed. Chosen: cost, which grows with the cube; the 145 cells of Klems and of
+/// Tregenza are all used.
 pub const MOST_CELLS: usize = 200;
-/// Strength of a beam that is nothing but uncertain, since an uncertainty is a share of the strength.
+/// Strength given to a beam whose strength is 0 but uncertain, since the uncertainty is stored relative to the
+/// strength.
 const NOTHING: f64 = 1e-9;
 /// Note on a beam that is not extracted.
 const LEFT: &str = "sun: the beam is left on the data's cells";
 
-/// Direct sun through patch-averaged data: beams, the rest on cells, and a note on the method.
+/// Direct sun behind a system with patch-averaged data: extracted beams, the other light on emergent cells, and a note
+/// on the method.
 pub struct SunOnCells {
-    /// Beams separated from the cells.
+    /// Beams extracted from the cells.
     pub beams: Vec<BeamLight>,
-    /// Luminance of the rest by emergent cell. \[cd/m²\]
+    /// Luminance of the room side by sunlight that is not in beams, by emergent cell. \[cd/m²\]
     pub luminance: Vec<f64>,
-    /// Uncertainties of `luminance`, as in [`super::CellLight::uncertainties`].
+    /// Uncertainties of `luminance`, independent of one another, each with a signed value per emergent cell. \[cd/m²\]
     pub uncertainties: Vec<Vec<f64>>,
-    /// Sentence on what was done.
+    /// Note on the extraction, for the user.
     pub note: String,
 }
 
-/// Beams in a matrix, and the rest of its light.
+/// Patch-averaged data divided into sharp beams and the other light, for any direction of the sun.
 pub struct Peaks {
     matrix: CellMatrix,
     around: Neighbours,
     paths: Vec<Path>,
     beams: Option<MeanField>,
-    /// Strongest mean; strengths in `beams` are shares of it.
+    /// Largest mean strength of a beam, a share of the incident flux; strengths in `beams` are relative to it.
     strongest: f64,
-    /// Light that is not in beams, row by row: smooth light, and what stands out of it in single cells. \[1/sr\]
+    /// Luminance coefficients of the light that is not in beams, by incident cell. \[1/sr\]
     rest: Vec<Rest>,
-    /// Transmittance of the smooth part.
+    /// Transmittance of the smooth part of `rest` as a function of the incident direction.
     even: Option<MeanField>,
-    /// Incident cells that the fields are fitted to.
+    /// Indices of the incident cells that `beams` and `even` are fitted to.
     used: Vec<usize>,
-    /// Share of the peaks' flux that leaks into the cells around them.
+    /// Flux of the lobes around the peaks as a share of the flux in the peaks.
     leak: f64,
-    /// Ratio of the peaks to their surroundings.
+    /// Ratio of the q of the peaks to that of the surrounding cells.
     contrast: f64,
 }
 
-/// Part of a row that is not in beams.
+/// Light of one incident cell that is not in beams: smooth part and peaks in single cells, by emergent cell. \[1/sr\]
 struct Rest {
     even: Vec<f64>,
     uneven: Vec<f64>,
 }
 
-/// Returns the observations that a path sends nothing from the ends of the rows of a cell's points.
+/// Returns observations of strength 0 for a path of beams at the ends of the rows of points of a dark incident cell.
 fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
     let row_ends = |k: &usize| {
         let other_theta =
@@ -107,7 +112,8 @@ fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
 }
 
 impl Peaks {
-    /// Looks for beams in a matrix. `sun`: its direction, should there be too many cells to look at all of them.
+    /// Divides patch-averaged data into beams and the other light. `sun`: direction of the sun; with more than
+    /// [`MOST_CELLS`] incident cells only the nearest to it are used.
     pub fn new(matrix: &CellMatrix, sun: Dir<Facade>) -> Self {
         let parts = Separation::new(matrix);
         let n = matrix.incident().len();
@@ -149,7 +155,7 @@ impl Peaks {
         own
     }
 
-    /// Fits the beams to what their cells hold above the surroundings.
+    /// Fits the strengths of the beams to the flux of their cells above the surroundings.
     fn find_beams(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
         let (mut observations, mut backgrounds): (Vec<Observation>, Vec<f64>) = (Vec::new(), Vec::new());
         let (mut above, mut below, mut leaked, mut held) = (0.0, 0.0, 0.0, 0.0);
@@ -158,7 +164,7 @@ impl Peaks {
             let straight = &reached[0][i].cells;
             let turned: &[usize] = reached.get(1).map_or(&[], |all| &all[i].cells);
             for (k, cells) in [straight.as_slice(), turned].into_iter().enumerate() {
-                // Cells that both paths lead to count as the straight one's: there both are seen together.
+                // Cells that both paths lead to count for the undeviated one; they hold the sum of both beams.
                 let cells: Vec<usize> = cells.iter().copied().filter(|o| k == 0 || !straight.contains(o)).collect();
                 if cells.is_empty() {
                     continue;
@@ -177,7 +183,8 @@ impl Peaks {
                     let but: Vec<usize> = cells.iter().chain(turned).copied().collect();
                     let outer = parts.background(&row, &near, &but);
                     let leak = |&o: &usize| (row[o] - outer).max(0.0) * parts.weight[o];
-                    // What leaks out of a lobe does so on all sides: twice the lesser half of it.
+                    // A lobe wider than the cells leaks to all sides: twice the sum over the lesser half of the
+                    // neighbours.
                     let mut leaks: Vec<f64> = near.iter().map(leak).collect();
                     leaks.sort_unstable_by(f64::total_cmp);
                     leaked += share * 2.0 * leaks[..leaks.len() / 2].iter().sum::<f64>();
@@ -215,13 +222,13 @@ impl Peaks {
             observations.iter().filter(pure).cloned().collect()
         };
         let covariances = [0, 1].map(|of| Covariance::most_likely(&alone(of), of));
-        // No light goes backwards: where a mean is nothing, the beam is nothing all over the cell. That tells where a
-        // cut-off lies far better than the means do.
+        // Flux is never negative: where a cell's mean is 0, the beam is 0 in the whole cell. This locates a cut-off far
+        // better than the means do.
         let sharper: Vec<Observation> = lit.into_iter().map(|i| observations[i].clone()).chain(dark).collect();
         self.beams = MeanField::new(sharper, covariances);
     }
 
-    /// Splits the light that is not in beams into smooth light and what stands out of it.
+    /// Divides the light that is not in beams into a smooth part and peaks in single cells.
     fn split_rest(&mut self, parts: &Separation<'_>, reached: &[Vec<Reached>]) {
         let n = self.matrix.incident().len();
         self.rest = (0..n)
@@ -252,12 +259,13 @@ impl Peaks {
         self.even = MeanField::new(observations, [covariance; 2]);
     }
 
-    /// Returns the emergent cells.
+    /// Returns the emergent cells of the data.
     pub fn basis(&self) -> &RingBasis {
         self.matrix.emergent()
     }
 
-    /// Computes the sun's light behind the system; `None` where the sun lies in none of the incident cells.
+    /// Computes the sunlight behind the system for the sun in `facing`; `None` if the sun lies in none of the incident
+    /// cells.
     pub fn sun(&self, facing: &Facing<'_>) -> Option<SunOnCells> {
         let incident = facing.sun_illuminance();
         let (light, sun) = (facing.sun?, facing.sun_entering().filter(|_| incident > 0.0)?);
@@ -266,9 +274,9 @@ impl Peaks {
         let mut beams = Vec::new();
         let mut words = Vec::new();
         let mut spread = vec![0.0; weight.len()];
-        // How much of a beam may be a lobe instead.
+        // Share of a beam that may be a narrow lobe instead.
         let lobe = (2.0 * self.leak).min(1.0);
-        // Two paths that end in one cell: their sum is known better than either.
+        // If two paths end in one cell, their sum is more certain than either.
         let ends: Vec<Option<usize>> = self.paths.iter().map(|path| self.basis().index(path.of(sun)?)).collect();
         let mixed = ends.len() == 2 && ends[0] == ends[1];
         let both = self.beams.as_ref().map_or(0.0, |field| {
@@ -279,10 +287,10 @@ impl Peaks {
             let at = field.at(of, sun);
             let strength = (self.strongest * at.value).clamp(0.0, 1.0);
             let error = (ERRORS * self.strongest * at.error).hypot(LEAST * strength);
-            // What is near to nothing may be nothing: smooth functions round off a cut-off.
+            // A value near 0 may be 0, because smooth functions round off a cut-off.
             let error = error.max(strength.min(CUT_OFF * self.strongest));
             let error = if mixed { error.hypot(MIXED * both) } else { error };
-            // It is a share of the light.
+            // The strength is a share of the incident flux, 0 … 1.
             let error = error.min(strength.max(1.0 - strength));
             if strength + error < 1e-6 {
                 continue;
@@ -291,7 +299,7 @@ impl Peaks {
             let straight = *path == Path::Straight;
             let exitance = strength * incident;
             let normal = if straight { strength * light.direct_normal } else { exitance / to.vector().z };
-            // What hides a part of the disc hides it from the sensor, too.
+            // An obstruction that hides part of the disc hides it from the sensor, too.
             let to = if straight { facing.sun_direction()? } else { to };
             beams.push(BeamLight { to, exitance, normal, straight, error: 0.0, uncertainty: error / strength + lobe });
             if let Some(o) = self.basis().index(to) {
@@ -321,8 +329,7 @@ impl Peaks {
             smooth.iter().map(|q| incident * relative.max(LEAST) * q).collect(),
             smooth.iter().zip(&own.even).map(|(a, b)| incident * (a - b)).collect(),
             smooth.iter().enumerate().map(|(o, q)| incident * (q - surroundings(o))).collect(),
-            // Light that stands out and is followed nowhere: a beam or a fan of beams that may be anywhere in its
-            // cells.
+            // Peaks that belong to no path: a beam or a fan of beams that may lie anywhere in its cells.
             own.uneven.iter().map(|q| incident * q).collect(),
             spread,
         ];
@@ -341,7 +348,8 @@ impl Peaks {
 }
 
 impl SunOnCells {
-    /// Returns this light with its beams left on the cells; the beams then count as uncertainty.
+    /// Returns the sunlight with its beams blurred over the cells of the data; the extracted beams then count as
+    /// uncertainty. `row`: luminance by the data used as given, by emergent cell \[cd/m²\].
     fn on_cells(mut self, row: &[f64]) -> Self {
         for beam in &mut self.beams {
             let whole = 1.0 + beam.uncertainty;
@@ -349,7 +357,8 @@ impl SunOnCells {
             beam.normal *= NOTHING;
             beam.uncertainty = whole / NOTHING;
         }
-        // A beam spread in its cell is off by itself everywhere: in its patch, and where the cell shines beside it.
+        // A beam blurred over its cell has an error as large as itself, within its true direction and in the rest of
+        // the cell.
         self.uncertainties.push(row.iter().zip(&self.luminance).map(|(stored, rest)| stored - rest).collect());
         self.luminance = row.to_vec();
         self
@@ -357,8 +366,8 @@ impl SunOnCells {
 }
 
 impl Emission {
-    /// Replaces the stored row of the sun's cell by the sun's light that `peaks` gives. `sharp`: its beams are
-    /// extracted from the cells; else they only count as uncertainty.
+    /// Replaces the sunlight of patch-averaged data used as given by that computed from `peaks`. `sharp`: whether beams
+    /// are extracted from the cells; otherwise they only count as uncertainty.
     pub fn take_peaks(&mut self, peaks: &Peaks, facing: &Facing<'_>, sharp: bool) {
         let (Some(sun), Some(light)) = (peaks.sun(facing), self.cells.first_mut()) else { return };
         let found = !sun.beams.is_empty();

@@ -1,5 +1,5 @@
-//! Separation of beams in the rows of a matrix: flux of the cells that a beam through an incident cell can reach, above
-//! what surrounds them.
+//! Separation of beams in patch-averaged data: cells that beams from an incident cell can reach, and their flux above
+//! the surrounding cells.
 
 use super::mean_field::{Point, points};
 use crate::compute::basis::Neighbours;
@@ -8,17 +8,19 @@ use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Path of a beam, between through directions.
+/// Path of a beam through a system, from the incident direction to the reversed emergent direction (direction of
+/// undeviated light).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Path {
     /// Undeviated path.
     Straight,
-    /// Reflection by mirrors with this normal: faces of slats, cuts of a panel.
+    /// Reflection by mirrors with this normal (façade frame): faces of slats, cuts of a panel.
     Mirrored(DVec3),
 }
 
 impl Path {
-    /// Returns the through direction in which light from `from` leaves; `None` where it would not come through.
+    /// Returns the reversed emergent direction of light from the incident direction `from`; `None` if it does not reach
+    /// the room side.
     pub(super) fn of(self, from: Dir<Facade>) -> Option<Dir<Facade>> {
         match self {
             Self::Straight => Some(from),
@@ -31,33 +33,34 @@ impl Path {
     }
 }
 
-/// Step of the tilts of mirrors that are tried. \[rad\] Half a step, the largest error of a tilt, turns a reflected
-/// beam by 2.5°, a quarter of a Klems ring.
+/// Step of the mirror tilts that are tried. \[rad\] Half a step, the largest error of a tilt, rotates a reflected beam
+/// by 2.5°, a quarter of a Klems ring.
 const STEP: f64 = 2.5 * PI / 180.0;
-/// Number of steps to both sides, up to 50°. Chosen: cost; light of steeper mirrors stays in its cells as uncertain.
+/// Number of steps of tilt to both sides, up to 50°. Chosen: cost; light of more tilted mirrors remains in its cells
+/// and counts as uncertain.
 const STEPS: i32 = 20;
-/// Share of all the light that stands out beside the straight beam that mirrors must explain to be believed: curved
-/// ones spread it over a fan. Chosen; held by
+/// Minimum share of the flux in peaks beside the undeviated beam that mirrors must explain to be accepted: curved
+/// mirrors spread it over a fan. Chosen; held by
 /// `tests/scenes/beams_in_cells::the_truth_of_strange_files_lies_within_what_is_stated`.
 const EXPLAINED: f64 = 0.7;
-/// Ratio of two explained shares above which they count as equal; the rounder tilt is then taken. Chosen; held as
+/// Ratio of two explained shares above which they count as equal; the smaller tilt is then used. Chosen; held like
 /// [`EXPLAINED`].
 const EQUAL: f64 = 0.98;
 
-/// Number of directions per side of a cell by which the cells that a path reaches are found. Chosen: cost; every 1° to
-/// 2° in Klems cells, so that a missed corner holds less than 1/64 of the cell.
+/// Number of directions per side of an incident cell for the search of the emergent cells that a path reaches. Chosen:
+/// cost; every 1° to 2° in Klems cells, so that a missed corner holds less than 1/64 of the cell.
 const FINE: usize = 8;
 
-/// Beams of one path through an incident cell.
+/// Emergent cells that light of one path from an incident cell reaches.
 #[derive(Debug, Clone)]
 pub(super) struct Reached {
-    /// Points of the incident cell with the emergent cell that each goes to.
+    /// Points of the incident cell with the index of the emergent cell that light from each reaches.
     pub(super) points: Vec<(Point, usize)>,
-    /// Emergent cells reached, each once.
+    /// Indices of the emergent cells reached, each once.
     pub(super) cells: Vec<usize>,
 }
 
-/// Matrix with the cells, weights and points that the search for beams needs.
+/// Patch-averaged data with the neighbours, weights \[sr\] and points of their cells, for the search for beams.
 pub(super) struct Separation<'a> {
     pub(super) matrix: &'a CellMatrix,
     /// Emergent cells that touch each emergent cell.
@@ -78,7 +81,8 @@ impl<'a> Separation<'a> {
         }
     }
 
-    /// Whether incident and emergent cells have the same borders. Otherwise a beam's cell does not hold all of it.
+    /// Whether incident and emergent cells have the same borders. Otherwise an undeviated beam from one incident cell
+    /// lies in several emergent cells.
     pub(super) fn aligned(&self) -> bool {
         let emergent = self.matrix.emergent();
         self.points.iter().zip(&self.incident_weight).all(|(points, weight)| {
@@ -88,14 +92,14 @@ impl<'a> Separation<'a> {
         })
     }
 
-    /// Returns the emergent cells that a path leads to from an incident cell.
+    /// Returns the emergent cells that light of a path from an incident cell reaches.
     pub(super) fn reached(&self, path: Path, incident: usize) -> Reached {
         let emergent = self.matrix.emergent();
         let to = |p: &Point| Some((*p, emergent.index(path.of(p.direction)?)?));
         let points: Vec<(Point, usize)> = self.points[incident].iter().filter_map(to).collect();
         let mut cells: Vec<usize> = points.iter().map(|p| p.1).collect();
         if path != Path::Straight {
-            // Corners that no point stands for still hold light.
+            // Corners of a cell that no sample point represents can still contain light.
             let own = self.matrix.incident().cell(incident);
             let at = |k: usize| (k as f64 + 0.5) / FINE as f64;
             cells.extend((0..FINE * FINE).filter_map(|k| {
@@ -109,12 +113,13 @@ impl<'a> Separation<'a> {
         Reached { points, cells }
     }
 
-    /// Returns the luminance coefficient that surrounds emergent cells, `but` left out. \[1/sr\]
+    /// Returns the mean luminance coefficient of the cells around emergent cells, without the cells `but`. \[1/sr\]
     pub(super) fn background(&self, row: &[f64], cells: &[usize], but: &[usize]) -> f64 {
         self.around.level(row, cells, but)
     }
 
-    /// Returns the mirrors that best explain what stands out beside the straight beam, if any do.
+    /// Returns the path of mirrors that best explains the peaks beside the undeviated beam; `None` if there are none or
+    /// no mirrors explain them.
     pub(super) fn mirrors(&self, straight: &[Reached]) -> Option<Path> {
         let n = straight.len();
         let mut excess: Vec<Vec<f64>> = Vec::with_capacity(n);
@@ -130,11 +135,11 @@ impl<'a> Separation<'a> {
             all += self.incident_weight[i] * self.matrix.tau_by_cell()[i];
             excess.push(by_cell);
         }
-        // Nothing that anyone would see.
+        // Below 1 % of the flux, mirror directions are not searched for.
         if total <= 0.01 * all {
             return None;
         }
-        // Overlap of what stands out with where these mirrors would send as much light.
+        // Overlap of the peaks with the light that mirrors with this normal would reflect.
         let explained = |normal: DVec3| -> f64 {
             let one = |i: usize| {
                 let reached = self.reached(Path::Mirrored(normal), i);
@@ -145,7 +150,7 @@ impl<'a> Separation<'a> {
             (0..n).map(|i| self.incident_weight[i] * one(i)).sum::<f64>() / total
         };
         let mut best = (0.0, DVec3::Y);
-        // From upright outwards, so that of equals the rounder stays.
+        // By rising tilt, so that of about equally good normals the one with the smaller tilt is chosen.
         for step in 0..=STEPS {
             for tilt in [step, -step].into_iter().take(if step == 0 { 1 } else { 2 }) {
                 let (sin, cos) = (f64::from(tilt) * STEP).sin_cos();

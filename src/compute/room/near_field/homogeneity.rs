@@ -1,28 +1,28 @@
-//! Distance from which an aperture with a visible structure (slats, cuts) may be taken for homogeneous: the report's
-//! Figure 20 as a number to print with every result.
+//! Distance from which an aperture with a visible structure (slats, cuts) may be considered homogeneous: Figure 20 of
+//! the IEA SHC Task 31 report as a number for every result.
 //!
-//! BTDF data describe one luminance for the whole area. A blind is bright lines, and a sensor close to it sees lines.
-//! The deviation falls off within about one period and is below 1 % from about three periods on, as long as the lines
-//! lie as often above as below their mean. Where the first line lies half a period off (a slat just at the sill), the
-//! aperture is as if moved by that much, which no distance heals.
+//! BTDF data describe one luminance for the whole area, but a blind consists of bright lines, and a sensor close to it
+//! sees lines. The deviation decreases within about one period and is below 1 % from about three periods on, provided
+//! that the lines are centred. If they are displaced by half a period (a slat just at the sill), the aperture is in
+//! effect displaced by that amount, which does not vanish at any distance.
 
-/// Number of periods of distance beyond which the deviation of centred lines is below 1 % by [`deviation`]; held by the
-/// test `below_one_per_cent_from_the_stated_distance_on`.
+/// Distance, in periods of the structure, beyond which the deviation of centred lines is below 1 % by [`deviation`];
+/// held by the test `below_one_per_cent_from_the_stated_distance_on`.
 const PERIODS: f64 = 3.0;
 
-/// Returns the distance from the aperture beyond which its structure of this period may be neglected. \[m\]
+/// Returns the distance from the aperture beyond which a structure of this period \[m\] may be neglected. \[m\]
 pub fn distance(period: f64) -> f64 {
     PERIODS * period
 }
 
-/// Returns the relative deviation of horizontal Lambertian lines from a homogeneous area of the same flux and height,
-/// at a horizontal sensor at sill height, `distance` in front of the area \[m\]. The lines lie at (k + `phase`) ·
-/// `period` up to the height; phase 0.5 centres them. `None` without room for a single line or for lengths that are not
-/// above 0.
+/// Returns the relative deviation of the illuminance by horizontal Lambertian lines from that by a homogeneous area of
+/// the same flux and height, for a horizontal sensor at sill height, `distance` in front of the area. The lines lie at
+/// the heights (k + `phase`) · `period` up to `height`; phase 0.5 centres them. All lengths \[m\]. `None` if there is
+/// no room for a single line, or for lengths that are not above 0.
 ///
-/// The deviation is computed in the vertical section, from points on the lines opposite the sensor (nearer to it than
-/// the rest, so that the whole lines deviate less): E of one at height y goes with y d/(y² + d²)², of the area with
-/// h²/(2 d (h² + d²)).
+/// The deviation is computed in the vertical section, from the points on the lines opposite the sensor (which are
+/// nearer to it than the rest, so that whole lines deviate less): E by one at height y is proportional to y d/(y² +
+/// d²)², E by the area to h²/(2 d (h² + d²)).
 pub fn deviation(period: f64, height: f64, distance: f64, phase: f64) -> Option<f64> {
     let lines = (height / period).round();
     if !(period > 0.0 && distance > 0.0 && (1.0..1e6).contains(&lines) && (0.0..=1.0).contains(&phase)) {

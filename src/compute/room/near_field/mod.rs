@@ -1,4 +1,4 @@
-//! Methods that integrate an aperture's light at a sensor (eq 17), to choose from and to compare.
+//! Methods for the direct illuminance of a sensor by an aperture (eq 17), for selection and comparison.
 //!
 //! The default method is [`NearField::SolidAngle`]: [`super::direct`] with the closed forms of [`super::cell_weights`]
 //! and the error-controlled cubature of [`super::through`]. The others are common in other programs, included so that
@@ -23,23 +23,25 @@ use crate::compute::quadrature::Tolerance;
 use glam::DVec3;
 use profile_table::ProfileTable;
 
-/// Method by which eq 17 is integrated.
+/// Method for the direct illuminance of a sensor by an aperture (integral of eq 17).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum NearField {
-    /// Closed forms for light on cells, error-controlled cubature where the outside is seen through.
+    /// Default: closed forms for luminances on emergent cells, error-controlled cubature for the outside seen through
+    /// the aperture.
     #[default]
     SolidAngle,
-    /// Point luminaires, `Some([m, n])` of them along x_F and y_F. `None`: the aperture is cut until every part is at
-    /// least five times its largest dimension (the photometric distance) away.
+    /// Division of the aperture into point luminaires: `Some([m, n])` of them along x_F and y_F; with `None` the
+    /// aperture is divided until every part is at least five times its largest dimension (the photometric distance)
+    /// away from the sensor.
     Subdivision(Option<[usize; 2]>),
-    /// Monte Carlo with this number of random points, uniform over the solid angle of the aperture.
+    /// Monte Carlo integration with this number of random directions, uniform over the solid angle of the aperture.
     MonteCarlo(usize),
-    /// Tables with this number of cells along each of two profile angles.
+    /// Summed-area tables with this number of cells along each of two profile angles.
     ProfileTable(usize),
 }
 
 impl NearField {
-    /// Returns the keyword of the method in scenes and results.
+    /// Returns the key of the method in scene files and results.
     pub const fn word(self) -> &'static str {
         match self {
             Self::SolidAngle => "solid-angle",
@@ -49,7 +51,7 @@ impl NearField {
         }
     }
 
-    /// Returns a description of the method's effort.
+    /// Returns a short English description of the method with its effort, for reports.
     pub fn effort(self) -> String {
         match self {
             Self::SolidAngle => "closed forms on cells, adaptive cubature where the outside is seen through".into(),
@@ -61,14 +63,14 @@ impl NearField {
     }
 }
 
-/// A method prepared for the light of one aperture under one outside.
+/// Computation of the direct illuminance by one aperture with a given emission, by one of the methods.
 pub struct Integrator<'a> {
     method: NearField,
     aperture: &'a Aperture,
     emission: &'a Emission,
     facing: &'a Facing<'a>,
     lid: Lid,
-    /// Relative error of the emitted light.
+    /// Relative error of the luminous exitance of the aperture.
     relative_error: f64,
     /// Tables of the full and of half the resolution, for [`NearField::ProfileTable`] alone.
     tables: Option<[ProfileTable; 2]>,
@@ -76,7 +78,7 @@ pub struct Integrator<'a> {
 }
 
 impl<'a> Integrator<'a> {
-    /// Creates an integrator with all that a method prepares once for all sensors. `tolerance` is for
+    /// Prepares the quantities that a method computes once for all sensors. `tolerance` is used by
     /// [`NearField::SolidAngle`] alone.
     pub fn new(
         method: NearField,
@@ -97,8 +99,8 @@ impl<'a> Integrator<'a> {
         Self { method, aperture, emission, facing, lid, relative_error, tables, tolerance }
     }
 
-    /// Computes the illuminance at a sensor, sun included. \[lx\] The error is the method's own estimate; see its
-    /// module.
+    /// Computes the direct illuminance of a sensor by the aperture, sun included. \[lx\] The error is the estimate of
+    /// the method, described in its module.
     pub fn illuminance(&self, sensor: &Sensor) -> DirectLight {
         if self.method == NearField::SolidAngle {
             let on = |basis: Option<&RingBasis>| Reception::new(sensor, self.aperture, basis);

@@ -1,11 +1,13 @@
-//! Monte Carlo over the aperture with importance sampling. Points are drawn with the density cosθ_F/r² on the area,
-//! which is uniform over its solid angle, so that grazing and near sensors have a finite variance. What remains is the
-//! variance of the luminance and of the sensor's cosine.
+//! Illuminance of a sensor by Monte Carlo integration over the aperture with importance sampling. Points are drawn with
+//! the density cosθ_F/r² on the area, which is uniform over its solid angle, so that the variance is finite for sensors
+//! near the aperture or at grazing angles, too. The remaining variance is that of the luminance and of the sensor's
+//! cosine.
 //!
-//! The error is the standard error of the mean: two of three results lie within it. A lobe that no point hits is not
-//! in the value, and not in the error either.
+//! The error is the standard error of the mean: two of three results lie within it. A lobe that no point hits is
+//! missing in the value and in the error.
 //!
-//! Reference: Ureña, Fajardo and King, An area-preserving parametrization for spherical rectangles (2013).
+//! Reference: Ureña, Fajardo and King, An area-preserving parametrization for spherical rectangles (2013), below "Ureña
+//! et al.".
 
 use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
@@ -16,20 +18,22 @@ use crate::compute::sequence::{Random, mixed};
 use glam::DVec3;
 use std::f64::consts::PI;
 
-/// Solid angle \[sr\] below which its closed form loses digits: a sum of angles that rounds to 2⁻⁵² · 2π ≈ 1e-15, 1e-8
-/// of it. Points are then drawn uniformly over the area, which from such a distance is equivalent.
+/// Solid angle of the aperture below which its closed form loses digits \[sr\]: a sum of angles that rounds to 2⁻⁵² ·
+/// 2π ≈ 1e-15, 1e-8 of it. Points are then drawn uniformly over the area, which from such a distance is equivalent.
 const SMALL: f64 = 1e-7;
 
-/// Returns a seed that differs by sensor and aperture and is the same on every run and for any number of threads.
+/// Returns a seed of random numbers that depends on sensor and aperture only, so that results are the same on every run
+/// and for any number of threads.
 pub fn seed(sensor: &Sensor, aperture: &Aperture) -> u64 {
     let [p, n, c] = [sensor.position, sensor.normal, aperture.corner].map(|v: DVec3| v.to_array());
     mixed(0x5EED, p.into_iter().chain(n).chain(c).chain(aperture.size).map(f64::to_bits))
 }
 
-/// Computes the mean over `samples` points and its standard error. \[lx\] `luminance` is called with vectors towards
-/// the aperture, façade frame, of any length.
+/// Computes the illuminance of a sensor by an aperture from `samples` random points, with the standard error of the
+/// mean. \[lx\] `luminance`: returns the luminance of the aperture in the direction of a vector from the sensor, façade
+/// frame, of any length \[cd/m²\].
 pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DVec3) -> f64) -> Estimate {
-    // Points behind the sensor's plane give nothing: only the box round what lies before it is sampled.
+    // Points behind the sensor's plane give nothing: only the bounding box of the part in front of it is sampled.
     let mut seen = Vec::with_capacity(6);
     clip(&view.corners(), view.normal, &mut seen);
     if seen.len() < 3 {
@@ -61,7 +65,9 @@ pub fn illuminance(view: &View, samples: usize, seed: u64, luminance: impl Fn(DV
     Estimate::new(mean, (squares / (count * (count - 1.0).max(1.0))).sqrt())
 }
 
-/// Rectangle x × y at z = distance, seen from the origin, parametrised by its solid angle.
+/// Rectangle `x` × `y` in the plane z = `distance` \[m\], seen from the origin, with the parametrisation of Ureña et
+/// al. by its solid angle. `b0`, `b1`, `k` and `solid_angle` are b₀, b₁, k and S of that paper: z components of the
+/// normals of the first and third side plane, sum of angles that the solid angle is relative to, solid angle \[sr\].
 struct SphericalRectangle {
     x: [f64; 2],
     y: [f64; 2],
@@ -73,8 +79,10 @@ struct SphericalRectangle {
 }
 
 impl SphericalRectangle {
+    /// Creates the parametrisation of a rectangle with these limits in the plane z = `distance`. \[m\]
     fn new(x: [f64; 2], y: [f64; 2], distance: f64) -> Self {
-        // The paper's frame looks along −z.
+        // In the frame of Ureña et al. the rectangle lies at z < 0. The normals are those of the planes through the
+        // origin and each side.
         let corner = |x: f64, y: f64| DVec3::new(x, y, -distance);
         let (v00, v01, v10, v11) = (corner(x[0], y[0]), corner(x[0], y[1]), corner(x[1], y[0]), corner(x[1], y[1]));
         let normals = [v00.cross(v10), v10.cross(v11), v11.cross(v01), v01.cross(v00)].map(DVec3::normalize_or_zero);
@@ -84,6 +92,8 @@ impl SphericalRectangle {
         Self { x, y, distance, b0: normals[0].z, b1: normals[2].z, k, solid_angle }
     }
 
+    /// Returns the point of the rectangle for two numbers in 0 … 1 (the mapping of Ureña et al.); uniform random
+    /// numbers give directions that are uniform over the solid angle.
     fn point(&self, u: f64, v: f64) -> DVec3 {
         let (sin, cos) = (u * self.solid_angle + self.k).sin_cos();
         let f = (cos * self.b0 - self.b1) / sin;

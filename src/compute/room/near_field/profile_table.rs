@@ -1,9 +1,11 @@
-//! Summed-area tables over two profile angles a = atan(x/z), b = atan(y/z) of the through direction. An aperture is a
-//! rectangle in them for every sensor, so that the light of all full cells is four look-ups, and cells that its border
-//! cuts have closed forms. Exact for a luminance that is constant on the table's cells.
+//! Illuminance of a sensor by summed-area tables over the two profile angles a = atan(x/z), b = atan(y/z) of the
+//! direction from the sensor, façade frame. For every sensor an aperture is a rectangle in these angles, so that the
+//! sum over all full cells is four look-ups; cells that its border cuts have closed forms. Exact for a luminance that
+//! is constant on the table's cells.
 //!
-//! The error is the difference from the table of half the resolution, plus all light within the outermost cells: within
-//! a few degrees of grazing a cell is much wider than the light's detail, and both tables are wrong alike.
+//! The error is the difference from the table of half the resolution, plus the illuminance by all light in the
+//! outermost cells: within a few degrees of grazing, a cell is much wider than the details of the luminance, and both
+//! tables have the same error.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::Estimate;
@@ -13,19 +15,22 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Luminances on n × n cells of two profile angles with their running sums.
+/// Luminances of an aperture on n × n cells of two profile angles, with running sums of luminance times vector solid
+/// angle.
 pub struct ProfileTable {
     n: usize,
-    /// Tangents of the n + 1 borders; the outermost are infinite.
+    /// Tangents of the n + 1 borders of the cells in each profile angle; the outermost are infinite.
     borders: Vec<f64>,
-    /// Luminances by row of b, then column of a. \[cd/m²\]
+    /// Luminances of the cells, by row of b, then column of a. \[cd/m²\]
     luminance: Vec<f64>,
     /// Σ L ∫ω dω over all cells left of and below a node, at (n + 1)² nodes, without the outermost cells.
     sums: Vec<DVec3>,
 }
 
 impl ProfileTable {
-    /// Creates a table of cells of equal angle, each with the luminance at its middle.
+    /// Creates a table of `n` × `n` cells of equal width in the profile angles, each with the luminance in the
+    /// direction of its middle. `luminance`: of the aperture as a function of the direction from the sensor towards it,
+    /// façade frame \[cd/m²\].
     pub fn new(n: usize, luminance: impl Fn(Dir<Facade>) -> f64 + Sync) -> Self {
         let angle = |i: f64| i * PI / n as f64 - FRAC_PI_2;
         let borders: Vec<f64> = (0..=n)
@@ -52,7 +57,7 @@ impl ProfileTable {
         Self { n, borders, luminance, sums }
     }
 
-    /// Returns the index of the cell that holds a gnomonic coordinate.
+    /// Returns the index of the cell that contains a gnomonic coordinate (tangent of a profile angle).
     fn cell(&self, x: f64) -> usize {
         (self.borders.partition_point(|border| *border <= x).max(1) - 1).min(self.n - 1)
     }
@@ -136,7 +141,8 @@ fn corner(x: f64, y: f64) -> DVec3 {
     0.5 * DVec3::new(-p / u, -q / v, x / u * p + y / v * q)
 }
 
-/// Computes the illuminance from the table, with its error by a table of half the resolution. \[lx\]
+/// Computes the illuminance of a sensor by an aperture from a table, with the error from a table of half the
+/// resolution. \[lx\] `view`: aperture as seen from the sensor.
 pub fn illuminance(view: &View, fine: &ProfileTable, coarse: &ProfileTable) -> Estimate {
     let mut seen = Vec::with_capacity(6);
     clip(&view.corners(), view.normal, &mut seen);
@@ -149,7 +155,7 @@ pub fn illuminance(view: &View, fine: &ProfileTable, coarse: &ProfileTable) -> E
         })
     };
     let (x, y) = (range(0), range(1));
-    // What a plane parallel to an axis clips stays a rectangle.
+    // A rectangle clipped by a plane parallel to one of its sides stays a rectangle.
     let on_a_side = |p: &DVec3| {
         let (px, py) = (p.x / view.distance, p.y / view.distance);
         (px == x[0] || px == x[1]) && (py == y[0] || py == y[1])

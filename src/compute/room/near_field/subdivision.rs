@@ -1,22 +1,24 @@
-//! The aperture as point luminaires (eq 17 and 18): each part emits from its middle with the aperture's own
-//! distribution. Good at a distance; near the aperture and for narrow lobes it fails, and its error estimate covers
-//! that only as long as the points are not much further apart than the light's own detail.
+//! Illuminance of a sensor by an aperture divided into point luminaires (eq 17 and 18): each part emits from its middle
+//! with the distribution of the aperture. Accurate at a distance; near the aperture and for narrow lobes it fails, and
+//! its error estimate includes that only as long as the points are not much further apart than the details of the
+//! luminance.
 
 use super::kernel::kernel;
 use crate::compute::estimate::Estimate;
 use crate::compute::room::aperture::View;
 use glam::DVec3;
 
-/// Minimum distance of a part in units of its largest dimension: the photometric distance that keeps a Lambertian part
-/// within 1 % of a point, as 1 / (1 + 0.1²) of a disc.
+/// Minimum distance of a part from the sensor in units of its largest dimension: the photometric distance, at which a
+/// Lambertian disc deviates from a point source by 1 %, 1 / (1 + 0.1²).
 pub const PHOTOMETRIC_DISTANCE: f64 = 5.0;
-/// Maximum number of parts that the distance rule cuts; reached by sensors nanometres from the aperture. Chosen: cost;
-/// the error is stated.
+/// Maximum number of parts by the distance rule; reached by sensors nanometres from the aperture. Chosen: cost; the
+/// error is stated.
 const MOST_PARTS: usize = 1 << 16;
 
-/// Computes the illuminance from `[m, n]` equal parts along x_F and y_F. \[lx\] The error is the difference from half
-/// as many along each side (from twice as many for a single part). `luminance` is called with vectors towards the part,
-/// façade frame, of any length.
+/// Computes the illuminance of a sensor by an aperture divided into `[m, n]` equal parts along x_F and y_F. \[lx\] The
+/// error is the difference from half as many along each side (from twice as many for a single part). `luminance`:
+/// returns the luminance of the aperture in the direction of a vector from the sensor, façade frame, of any length
+/// \[cd/m²\].
 pub fn fixed(view: &View, parts: [usize; 2], luminance: impl Fn(DVec3) -> f64) -> Estimate {
     let value = sum(view, parts, &luminance);
     let error = if parts == [1, 1] {
@@ -27,6 +29,7 @@ pub fn fixed(view: &View, parts: [usize; 2], luminance: impl Fn(DVec3) -> f64) -
     Estimate::new(value, error)
 }
 
+/// Sums the illuminances of the sensor by `m` × `n` equal parts of the aperture. \[lx\]
 fn sum(view: &View, [m, n]: [usize; 2], luminance: &impl Fn(DVec3) -> f64) -> f64 {
     let step = [(view.x[1] - view.x[0]) / m as f64, (view.y[1] - view.y[0]) / n as f64];
     let mut total = 0.0;
@@ -46,13 +49,16 @@ fn sum(view: &View, [m, n]: [usize; 2], luminance: &impl Fn(DVec3) -> f64) -> f6
     total * step[0] * step[1]
 }
 
-/// Computes the illuminance from parts cut in halves until each is at least [`PHOTOMETRIC_DISTANCE`] times its largest
-/// dimension away. \[lx\] The error is the difference from half that distance.
+/// Computes the illuminance of a sensor by an aperture whose parts are halved until each is at least
+/// [`PHOTOMETRIC_DISTANCE`] times its largest dimension away. \[lx\] The error is the difference from the result with
+/// half that distance. `luminance`: returns the luminance of the aperture in the direction of a vector from the sensor,
+/// façade frame, of any length \[cd/m²\].
 pub fn by_distance(view: &View, luminance: impl Fn(DVec3) -> f64) -> Estimate {
     let value = cut(view, PHOTOMETRIC_DISTANCE, &luminance);
     Estimate::new(value, (cut(view, 0.5 * PHOTOMETRIC_DISTANCE, &luminance) - value).abs())
 }
 
+/// Sums the illuminances of the sensor by parts that are at least `factor` times their largest dimension away. \[lx\]
 fn cut(view: &View, factor: f64, luminance: &impl Fn(DVec3) -> f64) -> f64 {
     let mut open = vec![(view.x, view.y)];
     let (mut total, mut parts) = (0.0, 1);

@@ -1,17 +1,18 @@
-//! First border that a beam meets, and the width over which it meets the same one.
+//! First border of a region that a beam meets, and the width over which the beam meets the same border. Coordinates of
+//! a beam are c across it (to its left) and t along it, in periods of the section.
 //!
-//! A border is met from its region exactly when its start lies to the left of its end across the beam, so that
-//! nothing needs to be said of the border that a beam has just left. Borders do not cross: which one is nearest
-//! changes only at their ends.
+//! A border is met from its region exactly when its start lies to the left of its end across the beam, so that the
+//! border that a beam has just left needs no exception. Borders do not cross: which one is nearest changes only at
+//! their ends.
 
 use super::beam::{Axes, Front};
 use super::section::{Edge, Plane, Region};
 use glam::DVec2;
 
-/// Distance below which places are the same. \[periods\] Above the rounding of f64 at the greatest height, that of
-/// [`MOST_PERIODS`]: 20 000 · 2⁻⁵² ≈ 4e-12.
+/// Distance below which two points of the section are the same. \[periods\] Above the rounding of f64 at the greatest
+/// height, that of [`MOST_PERIODS`]: 20 000 · 2⁻⁵² ≈ 4e-12.
 const SLACK: f64 = 1e-10;
-/// Maximum number of periods along which grazing light is followed before it is given up. Chosen: in a section one
+/// Maximum number of periods along which grazing light is traced before it counts as lost. Chosen: in a section one
 /// period deep this is light within 5e-5 rad of the plane, some 1e-9 of uniform light.
 const MOST_PERIODS: i64 = 20_000;
 
@@ -19,35 +20,37 @@ const MOST_PERIODS: i64 = 20_000;
 /// the same border.
 const MANY_COPIES: i64 = 12;
 
-/// Border that a beam meets.
+/// Border of a region that a beam meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hit {
-    /// Distance along the beam to the border, linear across it: value at c = 0, slope.
+    /// Coordinate t of the border along the beam as a linear function of the coordinate c across it: value at c = 0
+    /// \[periods\], and slope.
     line: [f64; 2],
-    /// End of the border across the beam.
+    /// Coordinate c across the beam at which the border ends. \[periods\]
     end: f64,
-    /// Unit normal of the border, against the beam (outward, upward).
+    /// Unit normal of the border (outward, upward) that points against the beam.
     pub normal: DVec2,
     /// Index of the region behind the border.
     pub beyond: usize,
-    /// Period of the border that was met.
+    /// Number of periods by which the copy of the border that was met lies above the original.
     pub copy: i64,
 }
 
 impl Hit {
-    /// Creates the hit on a copy of an edge with ends `ca` and `cb` across the beam, the distance `ta` at its start,
-    /// and a slope.
+    /// Creates the hit on copy `copy` of an edge that reaches from c = `ca` to c = `cb` across the beam, where its
+    /// start lies at t = `ta` along the beam \[periods\] and t changes with c by `slope`.
     fn new(edge: &Edge, [ca, cb]: [f64; 2], ta: f64, slope: f64, copy: i64) -> Self {
         Self { line: [ta - ca * slope, slope], end: cb, normal: DVec2::from(edge.normal), beyond: edge.beyond, copy }
     }
 
-    /// Returns the distance along the beam at c.
+    /// Returns the coordinate t along the beam at which the ray at c across the beam meets the border. \[periods\]
     pub fn at(&self, c: f64) -> f64 {
         self.line[0] + self.line[1] * c
     }
 }
 
-/// Returns the range of copies of the region's edges that light can meet between the given heights.
+/// Returns the first and last copy (number of periods upward) of the region's edges that light can meet between the
+/// heights `low` and `high`. \[periods\]
 fn copies(region: &Region, low: f64, high: f64) -> (i64, i64) {
     let (first, last) = ((low - region.high[1]).ceil(), (high - region.low[1]).floor());
     let bound = MOST_PERIODS as f64;
@@ -56,7 +59,8 @@ fn copies(region: &Region, low: f64, high: f64) -> (i64, i64) {
     (clip(first), clip(last))
 }
 
-/// Returns the part of the ray at c, from t on, at the depths of the region's edges.
+/// Returns the interval of t along the beam in which the ray at c across the beam, followed from `t` on, lies within
+/// the range of depths (outward coordinate) that the region's edges occupy; `None` if it never does. \[periods\]
 fn inside(region: &Region, axes: &Axes, c: f64, t: f64) -> Option<[f64; 2]> {
     let z0 = c * axes.across.x;
     let dz = axes.along.x;
@@ -71,7 +75,8 @@ fn inside(region: &Region, axes: &Axes, c: f64, t: f64) -> Option<[f64; 2]> {
     (from <= to).then_some([from, to])
 }
 
-/// Returns the first border that the ray at c meets behind the front.
+/// Returns the first border of the region that the ray at c across the beam meets behind the front; `None` if it meets
+/// none.
 pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Option<Hit> {
     let start = front.at(c) - SLACK;
     let mut best: Option<(f64, Hit)> = None;
@@ -142,8 +147,9 @@ pub(super) fn nearest(region: &Region, axes: &Axes, front: &Front, c: f64) -> Op
     best.map(|(_, hit)| hit)
 }
 
-/// Returns the first copy of an edge, of those in a range, that the ray at c meets behind `start`: the copies in its
-/// way follow one another at equal distances, so that they need not be tried one by one.
+/// Returns the first copy of an edge, among the copies `range`, that the ray at c across the beam meets beyond t =
+/// `start`, with the t at which it does. The copies that the ray meets follow one another at equal distances, so that
+/// they need not be tried one by one.
 fn first_copy(edge: &Edge, axes: &Axes, c: f64, start: f64, range: [i64; 2]) -> Option<(f64, Hit)> {
     let across = |p: [f64; 2]| p[0] * axes.across.x + p[1] * axes.across.y;
     let along = |p: [f64; 2]| p[0] * axes.along.x + p[1] * axes.along.y;
@@ -175,7 +181,8 @@ fn first_copy(edge: &Edge, axes: &Axes, c: f64, start: f64, range: [i64; 2]) -> 
     })
 }
 
-/// Returns the copies of a range that lie across the beam within the given distances of copy 0, one more at either end.
+/// Returns the first and last of the copies `range` whose displacement across the beam from copy 0 lies between the two
+/// `distances` \[periods\], with one more at either end.
 fn sideways(range: [i64; 2], axes: &Axes, distances: [f64; 2]) -> [f64; 2] {
     let [first, last] = range.map(|copy| copy as f64);
     let step = axes.across.y;
@@ -186,7 +193,7 @@ fn sideways(range: [i64; 2], axes: &Axes, distances: [f64; 2]) -> [f64; 2] {
     [first.max(a.min(b).floor()), last.min(a.max(b).ceil())]
 }
 
-/// Returns the hit on a flat face; `None` if light of this direction does not meet it.
+/// Returns the hit of a beam on a flat face; `None` if light with these axes does not meet that side of it.
 fn plane_hit(plane: &Plane, axes: &Axes) -> Option<Hit> {
     let dz = axes.along.x;
     (dz * plane.seen_along > 1e-14).then(|| Hit {
@@ -198,7 +205,8 @@ fn plane_hit(plane: &Plane, axes: &Axes) -> Option<Hit> {
     })
 }
 
-/// Returns the place across the beam, from c on, up to which it meets the same border, at most the end of the front.
+/// Returns the coordinate across the beam up to which, from `c` on, the beam meets the same border (`None`: no border),
+/// at most the end of the front. \[periods\]
 pub(super) fn extent(region: &Region, axes: &Axes, front: &Front, c: f64, hit: Option<&Hit>) -> f64 {
     let mut end = front.ends[1][0].min(hit.map_or(f64::INFINITY, |hit| hit.end));
     if region.edges.is_empty() || end <= c {

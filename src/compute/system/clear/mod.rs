@@ -1,4 +1,5 @@
-//! Light through clear bodies that are endless along x and repeat upwards: prismatic sheets, profiles between panes.
+//! Light through clear bodies that are endless along x and repeat periodically upwards: prismatic sheets, profiles
+//! between panes.
 //!
 //! The tracing takes place in the section (z outward, y upward) because the direction cosine along x is never changed:
 //! in a material of index n the wave vector (k_x, k_y, k_z) of length n keeps k_x, and what is left obeys Snell's law
@@ -6,11 +7,10 @@
 //! polarisation carried along from surface to surface. Waves are not coherent (no diffraction, no interference) and
 //! there is one index: dispersion is left out.
 //!
-//! A beam is a parallel bundle of finite width. It is cut exactly where the edges of the bodies cut it, and divides at
-//! every surface into a reflected and a transmitted part, so that no part of the result is drawn at random until its
-//! share is small.
+//! A beam is a parallel bundle of finite width. It is split exactly at the edges of the bodies, and divides at every
+//! surface into a reflected and a transmitted part, so that parts are chosen at random only where their share is small.
 
-/// Method by which data of clear bodies are computed, in words.
+/// Method by which data of clear bodies are computed, as text in the data and in reports.
 const METHOD: &str = "section of endless clear bodies, beams followed with their polarisation, both sides averaged by \
                       reciprocity, no dispersion, no interference";
 

@@ -8,7 +8,7 @@ use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, S
 use std::cell::RefCell;
 
 thread_local! {
-    /// Emission that is reused from trace to trace.
+    /// Result of a trace, whose buffers are reused by the next one on the same thread.
     static EMISSION: RefCell<Emission> = RefCell::default();
 }
 
@@ -17,6 +17,8 @@ impl Beams for ClearSection {
         false
     }
 
+    /// Traces the light of direction `name` (that of undeviated light) from `side`, and adds the beams that leave to
+    /// `out`, by their directions of undeviated light.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
         // Light from outside travels against its through direction, light from inside along it; so do its beams.
         let sign = if side == Side::Front { -1.0 } else { 1.0 };
@@ -35,7 +37,7 @@ impl Beams for ClearSection {
 }
 
 impl ClearSection {
-    /// Creates the optical model of the section for the virtual goniophotometer.
+    /// Creates the optical model of the section, from which the virtual goniophotometer computes data.
     pub const fn optical_model(self) -> SharpBeams<Self> {
         SharpBeams(self)
     }

@@ -1,28 +1,28 @@
-//! Outlines of bodies and their checks: closed or periodic, not crossing themselves, each other or their neighbours one
-//! period up.
+//! Outlines of clear bodies in section, and their checks: closed or periodic, not crossing themselves, each other or
+//! their neighbours one period up.
 
-/// Border of a body in the section: points (outward, upward). \[m\]
+/// Outline of a clear body in the vertical section, by points (outward, upward). \[m\]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Outline {
-    /// Closed polygon, either way round; it may be higher than a period as long as its copies do not touch.
+    /// Closed polygon, in either sense of rotation; it may be higher than a period if its periodic copies do not touch.
     Closed(Vec<[f64; 2]>),
     /// Sheet that extends over all periods, between two faces that each rise by one period from their first to their
     /// last point.
     Sheet {
-        /// Face towards the outside.
+        /// Outer face: polyline of (outward, upward) points over one period. \[m\]
         outer: Vec<[f64; 2]>,
-        /// Face towards the room.
+        /// Inner face, towards the room: polyline of (outward, upward) points over one period. \[m\]
         inner: Vec<[f64; 2]>,
     },
 }
 
-/// Error in the outlines of bodies. Indices of bodies count from 0.
+/// Error in the outlines or materials of clear bodies. Indices of bodies count from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OutlineError {
-    /// Period that is not a positive length. \[m\]
+    /// Vertical period that is not a positive, finite length. \[m\]
     #[error("a period of {0} m: above 0 is needed")]
     Period(f64),
-    /// Refractive index out of range.
+    /// Refractive index of a body out of range.
     #[error("body {body}: refractive index {index}: 1 to 4 is needed")]
     Index {
         /// Index of the body.
@@ -30,7 +30,7 @@ pub enum OutlineError {
         /// Refractive index of the body.
         index: f64,
     },
-    /// Absorption coefficient that is negative or not finite.
+    /// Absorption coefficient of a body that is negative or not finite.
     #[error("body {body}: absorption of {absorption} 1/m: 0 or more is needed")]
     Absorption {
         /// Index of the body.
@@ -38,7 +38,7 @@ pub enum OutlineError {
         /// Absorption coefficient of the body. \[1/m\]
         absorption: f64,
     },
-    /// Too few or too many points, or coordinates that are not numbers.
+    /// Outline with too few or too many points, or with coordinates that are not finite.
     #[error(
         "body {body}: {points} points (3 to 2000 finite ones that enclose an area; 2 and more for the faces of a sheet)"
     )]
@@ -48,24 +48,26 @@ pub enum OutlineError {
         /// Number of points of the body.
         points: usize,
     },
-    /// Face of a sheet that does not end one period up at the same depth.
+    /// Face of a sheet that does not end at the depth where it begins, one period higher.
     #[error("body {body}: a face of a sheet must end one period above its beginning, at the same depth")]
     Face {
         /// Index of the body.
         body: usize,
     },
-    /// Two edges that cross or overlap.
+    /// Outlines of two bodies (by their indices) whose edges cross or overlap.
     #[error("bodies {0} and {1}: edges cross or touch (a body and its neighbours one period away included)")]
     Crossing(usize, usize),
-    /// One body inside another, or a sheet whose outer face lies inside.
+    /// Two bodies, by their indices, of which one lies inside the other; or a sheet, both indices equal, whose outer
+    /// face lies on the room side of its inner face.
     #[error("bodies {0} and {1}: one lies inside the other, or the faces of a sheet are exchanged")]
     Nested(usize, usize),
-    /// Flank angles that give a prism without area.
+    /// Flank angles of a prism that enclose no area. \[°\]
     #[error("flank angles of {0}° and {1}°: above 0, at most 90, not both 90")]
     Flanks(f64, f64),
 }
 
-/// Returns the edges of a body within one period, (outward, upward).
+/// Returns the edges of a body within one period, each by its start and end (outward, upward), in the unit of the
+/// outline.
 pub(super) fn edges(outline: &Outline) -> Vec<[[f64; 2]; 2]> {
     let open = |points: &[[f64; 2]]| points.windows(2).map(|pair| [pair[0], pair[1]]).collect::<Vec<_>>();
     match outline {
@@ -78,7 +80,8 @@ pub(super) fn edges(outline: &Outline) -> Vec<[[f64; 2]; 2]> {
     }
 }
 
-/// Returns twice the signed area of a closed outline, > 0 where (outward, upward) run counter-clockwise.
+/// Returns twice the signed area of a closed outline, in the squared unit of its points; positive if the points
+/// (outward, upward) run counter-clockwise.
 pub(super) fn area2(points: &[[f64; 2]]) -> f64 {
     let next = points.iter().cycle().skip(1);
     points.iter().zip(next).map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum()
@@ -88,7 +91,7 @@ fn side(a: [f64; 2], b: [f64; 2], p: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
 }
 
-/// Whether two edges have more in common than a shared end.
+/// Whether two edges cross or overlap, that is have more in common than a shared end (to within `slack`).
 fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2], slack: f64) -> bool {
     let are_disjoint = |axis: usize| {
         let range = |e: [[f64; 2]; 2]| (e[0][axis].min(e[1][axis]), e[0][axis].max(e[1][axis]));
@@ -115,7 +118,7 @@ fn meet(a: [[f64; 2]; 2], b: [[f64; 2]; 2], slack: f64) -> bool {
     inside(b[0], a, d0, la) || inside(b[1], a, d1, la) || inside(a[0], b, e0, lb) || inside(a[1], b, e1, lb)
 }
 
-/// Whether a point is inside a closed outline.
+/// Whether the point `p` (outward, upward) is inside a closed outline.
 fn holds(points: &[[f64; 2]], p: [f64; 2]) -> bool {
     let next = points.iter().cycle().skip(1);
     let crossed = points
@@ -125,7 +128,7 @@ fn holds(points: &[[f64; 2]], p: [f64; 2]) -> bool {
     crossed.count() % 2 == 1
 }
 
-/// Returns the depth of a periodic face at the height of a point; the outermost where it has several.
+/// Returns the depth (outward coordinate) of a periodic face at the height `y`; the outermost one where it has several.
 fn depth(face: &[[f64; 2]], y: f64, period: f64) -> f64 {
     let y = face[0][1] + (y - face[0][1]).rem_euclid(period);
     let crossing = face.windows(2).filter(|e| (e[0][1].min(e[1][1])..=e[0][1].max(e[1][1])).contains(&y));
@@ -137,7 +140,7 @@ fn depth(face: &[[f64; 2]], y: f64, period: f64) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
-/// Whether a point is inside a body or one of its neighbouring copies.
+/// Whether the point `p` (outward, upward) is inside a body or one of its copies one period up and down.
 fn within(outline: &Outline, p: [f64; 2], period: f64) -> bool {
     match outline {
         Outline::Closed(points) => {
@@ -149,7 +152,7 @@ fn within(outline: &Outline, p: [f64; 2], period: f64) -> bool {
     }
 }
 
-/// Checks the outlines of the bodies of one period.
+/// Checks the outlines of the bodies of one period: points, faces, crossings and nesting.
 pub(super) fn check(outlines: &[&Outline], period: f64) -> Result<(), OutlineError> {
     if !(period > 0.0 && period.is_finite()) {
         return Err(OutlineError::Period(period));

@@ -4,39 +4,40 @@
 use crate::compute::system::panes::glazing::{Pane, fresnel};
 use glam::DVec3;
 
-/// Stokes parameters in the frame (s, p), p = k × s/|k|: I = |E_s|² + |E_p|², Q = |E_s|² − |E_p|²,
-/// U + iV = 2 E_s E_p*.
+/// Stokes parameters of a beam with fields E_s and E_p along the unit vectors s and p = k × s/|k| (k: wave vector): I =
+/// |E_s|² + |E_p|², Q = |E_s|² − |E_p|², U + iV = 2 E_s E_p*.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stokes {
-    /// Flux I of the light.
+    /// Flux I of the light, as a share of the incident flux.
     pub i: f64,
-    /// Excess Q of the field along s.
+    /// Stokes parameter Q: flux polarised along s minus that along p.
     pub q: f64,
-    /// Excess U of the field at 45°.
+    /// Stokes parameter U: flux polarised at +45° between s and p minus that at −45°.
     pub u: f64,
-    /// Excess V of circular light.
+    /// Stokes parameter V: excess of one sense of circular polarisation over the other, in flux.
     pub v: f64,
 }
 
 impl Stokes {
-    /// Creates unpolarised light of a flux.
+    /// Creates the Stokes parameters of unpolarised light of the given flux.
     pub const fn unpolarised(flux: f64) -> Self {
         Self { i: flux, q: 0.0, u: 0.0, v: 0.0 }
     }
 
-    /// Returns the parameters multiplied by a factor.
+    /// Returns the Stokes parameters multiplied by a factor.
     pub fn scaled(self, factor: f64) -> Self {
         Self { i: self.i * factor, q: self.q * factor, u: self.u * factor, v: self.v * factor }
     }
 
-    /// Returns the parameters in a frame rotated by an angle of the given cosine and sine: s′ = c s + s p.
+    /// Returns the Stokes parameters in a frame rotated by the angle of the given cosine and sine: s′ = cos · s + sin ·
+    /// p.
     fn turned(self, cos: f64, sin: f64) -> Self {
         let (cos2, sin2) = (cos * cos - sin * sin, 2.0 * cos * sin);
         Self { i: self.i, q: cos2 * self.q + sin2 * self.u, u: cos2 * self.u - sin2 * self.q, v: self.v }
     }
 
-    /// Returns the parameters after a surface with the given shares of s and p, and the complex product r_s r_p* (or
-    /// t_s t_p*).
+    /// Returns the Stokes parameters after a surface: `s` and `p` are its reflectances (or transmittances) for both
+    /// polarisations, `product` the complex product r_s r_p* (or t_s t_p*).
     fn through(self, s: f64, p: f64, product: [f64; 2]) -> Self {
         let (half, gap) = (0.5 * (s + p), 0.5 * (s - p));
         let [re, im] = product;
@@ -49,22 +50,23 @@ impl Stokes {
     }
 }
 
-/// Polarised light: Stokes parameters with the direction of s.
+/// Polarised light of a beam: Stokes parameters with the unit vector s that they refer to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PolarisedLight {
+    /// Stokes parameters of the light with respect to `s`.
     pub stokes: Stokes,
-    /// Unit vector s, across the wave vector.
+    /// Unit vector s, perpendicular to the wave vector.
     pub s: DVec3,
 }
 
 impl PolarisedLight {
-    /// Creates unpolarised light of flux 1 along `k`.
+    /// Creates unpolarised light of flux 1 with wave vector `k`.
     pub fn unpolarised(k: DVec3) -> Self {
         Self { stokes: Stokes::unpolarised(1.0), s: k.any_orthogonal_vector().normalize_or(DVec3::X) }
     }
 
-    /// Returns the light in the frame of a surface with normal ν: s across the plane of incidence. At normal incidence
-    /// any frame is right.
+    /// Returns the light with its Stokes parameters referred to a surface with normal `normal`: s is perpendicular to
+    /// the plane of incidence. At normal incidence any frame is right.
     fn in_frame_of(self, k: DVec3, normal: DVec3) -> Self {
         let across = k.cross(normal);
         let length2 = across.length_squared();
@@ -77,18 +79,20 @@ impl PolarisedLight {
     }
 }
 
-/// Light divided at a surface into a reflected and a transmitted part, with the wave vectors.
+/// Reflected and transmitted part of light at a surface between two clear materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Divided {
+    /// Reflected light.
     pub reflected: PolarisedLight,
-    /// Transmitted light; `None` where the reflection is total.
+    /// Transmitted light; `None` in total reflection.
     pub transmitted: Option<PolarisedLight>,
-    /// Normal components of the wave vector before the surface and behind it (0 where the reflection is total).
+    /// Magnitudes of the wave vector's component normal to the surface, in front of the surface and behind it (0 in
+    /// total reflection).
     pub normal: [f64; 2],
 }
 
-/// Divides light with wave vector `k` in a material of index² `n2` at the border to one of `beyond2`. `normal` points
-/// against the light.
+/// Divides light with wave vector `k` at the surface between its material, of squared refractive index `n2`, and one of
+/// squared index `beyond2`. `normal` is the surface's unit normal against the light.
 pub(super) fn divide(light: PolarisedLight, k: DVec3, normal: DVec3, n2: f64, beyond2: f64) -> Divided {
     let light = light.in_frame_of(k, normal);
     let before = (-k.dot(normal)).max(0.0);
@@ -121,8 +125,9 @@ pub(super) fn divide(light: PolarisedLight, k: DVec3, normal: DVec3, n2: f64, be
     }
 }
 
-/// Computes the effect of a plane-parallel pane in air on polarised light, all its inner reflections summed: shares of
-/// s and p and the product of the fields, transmitted and reflected.
+/// Computes the effect of a plane-parallel pane in air on polarised light, all its inner reflections summed, at the
+/// polar angle `theta` \[rad\]: for transmission and for reflection, the shares of both polarisations s and p, and the
+/// product of their field factors.
 ///
 /// On every path the fields gather factors t_s t_p or r_s r_p that are real, so that the product sums as the shares
 /// do, by the same geometric series.
@@ -147,7 +152,8 @@ fn pane(pane: &Pane, theta: f64) -> [[f64; 3]; 2] {
     ]
 }
 
-/// Returns the light transmitted and reflected by a pane across the z axis.
+/// Returns the light that a pane parallel to the façade transmits and reflects, for light with wave vector `k` (z: the
+/// pane's normal).
 pub(super) fn at_pane(light: PolarisedLight, k: DVec3, sheet: &Pane) -> [PolarisedLight; 2] {
     let normal = DVec3::new(0.0, 0.0, -k.z.signum());
     let light = light.in_frame_of(k, normal);

@@ -7,7 +7,7 @@ use crate::compute::system::family::{Family, OpticalModelError, Polygons};
 use crate::compute::system::measure::OpticalModel;
 use std::f64::consts::FRAC_PI_2;
 
-/// Sheet with prisms of two flanks.
+/// Sheet with equal prismatic ridges on one face, each with an upper and a lower flank; the other face is flat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prisms {
     /// Material of the sheet.
@@ -15,11 +15,11 @@ pub struct Prisms {
     /// Angles of the upper and of the lower flank of a ridge against the sheet's plane; the upper one is the one whose
     /// outward normal rises. \[rad\]
     pub angles: [f64; 2],
-    /// Distance between ridges. \[m\]
+    /// Vertical distance between ridges. \[m\]
     pub pitch: f64,
     /// Thickness of the sheet under the prisms: flat face to valley. \[m\]
     pub base: f64,
-    /// Whether the prisms are outside and the flat face is towards the room; otherwise the other way round.
+    /// Whether the prisms face the outside and the flat face the room; otherwise the prisms face the room.
     pub flipped: bool,
 }
 
@@ -30,7 +30,7 @@ impl Prisms {
         self.pitch / (upper + lower)
     }
 
-    /// Creates the section of the sheet, its flat face at depth 0.
+    /// Creates the vertical section of the sheet, with its flat face at depth 0.
     ///
     /// # Errors
     /// Returns an error if the flanks form no ridge, or lengths or materials are out of range.

@@ -7,18 +7,18 @@ use crate::compute::system::family::{Family, OpticalModelError, Polygons};
 use crate::compute::system::measure::OpticalModel;
 use crate::compute::system::panes::glazing::Pane;
 
-/// Bodies of clear material, stacked with a period, between two clear panes.
+/// Light-redirecting glass: bodies of clear material, repeated vertically with a period, between two clear panes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RedirectingGlass {
     /// Refractive index of the profiles.
     pub index: f64,
     /// Absorption coefficient of the profiles. \[1/m\]
     pub absorption: f64,
-    /// Vertical period. \[m\]
+    /// Vertical period of the bodies. \[m\]
     pub spacing: f64,
     /// Outlines of the bodies of one period, (outward, upward). \[m\]
     pub bodies: Vec<Vec<[f64; 2]>>,
-    /// Panes outside and inside.
+    /// Outer and inner pane; `None` where there is none.
     pub panes: [Option<Pane>; 2],
 }
 

@@ -1,9 +1,10 @@
-//! Section through which light is traced: bodies of one period as borders of regions, between flat panes.
+//! Vertical section through which light is traced: clear bodies of one period, stored as regions with borders, between
+//! flat panes.
 
 use super::outline::{Outline, OutlineError, area2, check, edges};
 use crate::compute::system::panes::glazing::Pane;
 
-/// Clear material: refractive index and absorption.
+/// Clear material of a body: refractive index and absorption coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     /// Refractive index, 1 to 4.
@@ -15,22 +16,23 @@ pub struct Material {
 /// Body of clear material within one period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Border of the body.
+    /// Outline of the body in section.
     pub outline: Outline,
     /// Material of the body.
     pub material: Material,
 }
 
-/// Bodies in air, repeated upwards with a period, between optional panes.
+/// Vertical section of clear bodies in air, repeated upwards with a period, between optional panes.
 #[derive(Debug, Clone)]
 pub struct ClearSection {
     bodies: Vec<Body>,
+    /// Vertical period of the section. \[m\]
     pub(super) period: f64,
-    /// Panes outside and inside, at a distance from the bodies that does not matter.
+    /// Outer and inner pane, if any; their distance from the bodies has no effect.
     pub(super) panes: [Option<Pane>; 2],
-    /// Regions of the section: 0 is the air, then one per body. Lengths in periods.
+    /// Regions of the section: index 0 is the air, followed by one per body. Lengths are in periods.
     pub(super) regions: Vec<Region>,
-    /// Depths between which the bodies lie. \[periods\]
+    /// Minimum and maximum depth (outward coordinate) of the bodies. \[periods\]
     pub(super) depth: [f64; 2],
 }
 
@@ -39,26 +41,31 @@ pub struct ClearSection {
 pub(super) struct Region {
     /// Square of the refractive index.
     pub n2: f64,
-    /// Absorption over one period.
+    /// Absorption coefficient times the period: optical depth over a length of one period.
     pub absorption: f64,
-    /// Borders with the region on their left.
+    /// Straight borders of the region, which lies on their left.
     pub edges: Vec<Edge>,
-    /// Flat faces of sheets.
+    /// Flat faces of sheets that border the region.
     pub planes: Vec<Plane>,
-    /// Box around the edges of one period: `low` and `high` are its least and greatest (outward, upward).
+    /// Lower corner (outward, upward) of the box around the region's edges in one period; `high` is the upper corner.
+    /// \[periods\]
     pub low: [f64; 2],
+    /// Upper corner (outward, upward) of the box around the region's edges in one period. \[periods\]
     pub high: [f64; 2],
-    /// Whether light inside meets the borders of its own copy only.
+    /// Whether light inside the region can meet only the borders of the same periodic copy (a closed body).
     pub confined: bool,
 }
 
-/// Straight border from a to b, with its region on the left and another one beyond.
+/// Straight border of a region from a to b (outward, upward) \[periods\]; its region lies on the left.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Edge {
+    /// Start of the border (outward, upward). \[periods\]
     pub a: [f64; 2],
+    /// End of the border (outward, upward). \[periods\]
     pub b: [f64; 2],
-    /// Unit normal into the region.
+    /// Unit normal (outward, upward) that points into the region.
     pub normal: [f64; 2],
+    /// Index of the region on the other side of the border.
     pub beyond: usize,
 }
 
@@ -70,11 +77,15 @@ impl Edge {
     }
 }
 
-/// Flat face at one depth. It is met from its region by light that travels with the sign `seen_along` along z.
+/// Flat face of a sheet, parallel to the façade. Light of its region meets the face if its travel along z has the sign
+/// `seen_along`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Plane {
+    /// Depth of the face (outward coordinate). \[periods\]
     pub z: f64,
+    /// Sign, 1 or −1, of the travel along z of light that meets the face.
     pub seen_along: f64,
+    /// Index of the region on the other side of the face.
     pub beyond: usize,
 }
 
@@ -102,7 +113,8 @@ impl Region {
 }
 
 impl ClearSection {
-    /// Creates a section of bodies repeated upwards every `period` metres, between panes outside and inside.
+    /// Creates a section of bodies repeated upwards every `period` \[m\], between an outer and an inner pane (`None`:
+    /// no pane).
     ///
     /// # Errors
     /// Returns an error if outlines cross, are nested or enclose nothing, or if materials are out of range.
@@ -140,8 +152,8 @@ impl ClearSection {
         Ok(Self { bodies, period, panes, regions, depth })
     }
 
-    /// Returns the closed polygons of one period as (outward, upward), for drawings: the bodies, a sheet as the piece
-    /// of one period, and the panes at a small distance. \[m\]
+    /// Returns the section of one period for drawings, as closed polygons of (outward, upward) points \[m\]: the
+    /// bodies, of a sheet the piece of one period, and the panes at a small distance from them.
     pub fn outline(&self) -> Vec<Vec<[f64; 2]>> {
         let mut list: Vec<Vec<[f64; 2]>> = self.bodies.iter().map(|body| polygon(&body.outline)).collect();
         let floor = list.iter().flatten().map(|point| point[1]).fold(f64::INFINITY, f64::min);
@@ -157,7 +169,7 @@ impl ClearSection {
         list
     }
 
-    /// Returns the section mirrored in its plane: outside and inside exchanged.
+    /// Returns the section with outside and inside exchanged, mirrored in the plane of the façade.
     #[must_use]
     pub fn flipped(&self) -> Self {
         let mirror = |points: &[[f64; 2]]| points.iter().map(|[z, y]| [-z, *y]).collect::<Vec<_>>();
@@ -180,8 +192,8 @@ fn polygon(outline: &Outline) -> Vec<[f64; 2]> {
     }
 }
 
-/// Returns the edges with the body on their left. Flat faces of sheets come as whole planes, with whether they look
-/// outside.
+/// Returns the edges of an outline, each by start and end with the body on its left. Flat faces of sheets are whole
+/// planes, marked by `Some(whether the face looks outside)`.
 fn borders(outline: &Outline) -> Vec<([[f64; 2]; 2], Option<bool>)> {
     let turned = |[a, b]: [[f64; 2]; 2]| [b, a];
     match outline {

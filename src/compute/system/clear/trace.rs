@@ -1,4 +1,4 @@
-//! Tracing of all beams that one incident direction becomes.
+//! Tracing of all beams that light of one incident direction is divided into.
 
 use super::beam::{Axes, Front, WideBeam};
 use super::hit::{Hit, extent, nearest};
@@ -8,32 +8,34 @@ use crate::compute::sequence::Random;
 use crate::compute::system::measure::beams::Effort;
 use glam::{DVec2, DVec3};
 
-/// Beam that leaves the section.
+/// Beam that leaves the section, transmitted or reflected.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leaving {
-    /// Share of the incident flux.
+    /// Share of the incident flux that the beam carries.
     pub share: f64,
-    /// Direction cosine of travel along y (upward); the one along x is that of the incident light.
+    /// Direction cosine of the beam's travel along y (upward); that along x is the one of the incident light.
     pub y: f64,
-    /// Direction cosine of travel along z. \[> 0 outwards\]
+    /// Direction cosine of the beam's travel along z, positive outwards.
     pub z: f64,
-    /// Change of `y` with the incident direction cosines along x and y.
+    /// Derivatives of `y` with respect to the incident light's direction cosines along x and y.
     pub change: [f64; 2],
 }
 
-/// Light of one direction after the section, averaged over the places where it meets the section.
+/// Result of a trace: the light of one incident direction after the section, averaged over the heights at which it
+/// meets the section.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Emission {
     /// Beams that leave, in no particular order.
     pub leaving: Vec<Leaving>,
-    /// Share that is absorbed, including the share that was given up.
+    /// Share of the incident flux that is absorbed, including `lost`.
     pub absorbed: f64,
-    /// Share that was given up: light still caught between total reflections after very many surfaces, which the least
-    /// absorption would take; rounding errors at corners. It counts as an error of all shares.
+    /// Share of the incident flux whose tracing was given up: light still caught between total reflections after very
+    /// many surfaces, which the least absorption would remove, and rounding errors at corners. It counts as an error of
+    /// all shares.
     pub lost: f64,
-    /// Number of surfaces looked for, of all beams together: the cost of the trace.
+    /// Number of surfaces that all beams together were traced to, a measure of the cost.
     pub surfaces: u32,
-    /// Buffer for beams still to be followed; empty between traces.
+    /// Buffer of beams that are still to be traced; empty between traces.
     waiting: Vec<WideBeam>,
 }
 
@@ -48,17 +50,18 @@ impl Emission {
 /// separately. Chosen: cost; beyond it one beam represents all without bias, so that results change within their stated
 /// error. Held by `tests/compute/goniophotometer_glass.rs::less_effort_means_more_noise_but_no_bias`.
 const SURFACE_FACTOR: u32 = 10;
-/// Number of surfaces after which light is given up. Chosen: cost; the light given up is part of the stated error. Held
-/// by `tests/compute/goniophotometer_glass.rs::light_in_steep_grooves_ends`: on average at most 2 % in steep grooves.
+/// Number of surfaces after which the tracing of light is given up. Chosen: cost; the light given up is part of the
+/// stated error. Held by `tests/compute/goniophotometer_glass.rs::light_in_steep_grooves_ends`: on average at most 2 %
+/// in steep grooves.
 const MOST_SURFACES: u32 = 2000;
 /// Flux below which a beam counts as absorbed: caught between total reflections in absorbing material, all of it is
 /// absorbed in the end. Chosen: some 50 roundings of f64 (2⁻⁵² ≈ 2.2e-16) of the incident flux, which is 1.
 const FAINT: f64 = 1e-14;
-/// Fraction of the least divided share below which a part is followed only at random, with more flux then. Chosen:
-/// cost; both parts keep their mean flux, so that results change within their stated error.
+/// Fraction of the smallest divided share below which a part of a beam is traced only with a probability, then with
+/// more flux. Chosen: cost; both parts keep their mean flux, so that results change within their stated error.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Returns a random number in 0 … 1, from all 64 bits: stored results depend on these exact numbers.
+/// Returns a random number in 0 … 1, made from all 64 bits; stored results depend on these exact numbers.
 const fn drawn(random: &mut Random) -> f64 {
     random.bits() as f64 / (1_u128 << 64) as f64
 }
@@ -82,7 +85,7 @@ impl ClearSection {
         out.waiting = stack;
     }
 
-    /// Returns the incident light in front of the section, one period high.
+    /// Returns the incident light with wave vector `k` as a beam in front of the section, one period high.
     fn incident(&self, k: DVec3) -> WideBeam {
         let axes = Axes::new(k);
         let z = if k.z < 0.0 { self.depth[1] + 0.5 } else { self.depth[0] - 0.5 };
@@ -92,14 +95,14 @@ impl ClearSection {
     }
 }
 
-/// Parts of a beam that are too small to be followed separately: one of them, chosen at random in proportion to its
-/// flux, represents all. Their flux is kept exactly.
+/// Parts of a beam that are too small to be traced separately: one of them, chosen at random in proportion to its flux,
+/// represents all of them. Their flux is kept exactly.
 #[derive(Default)]
 struct Handful {
-    /// Border that the chosen part meets; `range` is its extent across the beam.
+    /// Border that the representative part meets; `range` is that part's extent across the beam.
     hit: Option<Hit>,
     range: [f64; 2],
-    /// Flux of all parts.
+    /// Flux of all parts together, as a share of the incident flux.
     flux: f64,
 }
 
@@ -114,7 +117,7 @@ impl Handful {
 
 struct Work<'a> {
     section: &'a ClearSection,
-    /// Minimum share that is divided at present.
+    /// Minimum share of the incident flux that a beam must carry to be divided, at the current number of surfaces.
     share: f64,
     random: Random,
     stack: Vec<WideBeam>,
@@ -122,7 +125,8 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Returns one of all remaining beams, with the flux of all of them; it is not divided any more.
+    /// Returns one of all remaining beams, chosen at random in proportion to its flux, with the flux of all; it is not
+    /// divided any more.
     fn one_of_all(&mut self, last: WideBeam) -> WideBeam {
         self.share = f64::INFINITY;
         let (mut chosen, mut flux) = (last, last.light.stokes.i);
@@ -135,7 +139,7 @@ impl Work<'_> {
         whole(chosen, flux)
     }
 
-    /// Follows a beam to all surfaces that it meets.
+    /// Traces a beam to all surfaces that it meets, and adds the beams that arise there.
     fn follow(&mut self, mut beam: WideBeam) {
         let section = self.section;
         let region = &section.regions[beam.region];
@@ -186,14 +190,15 @@ impl Work<'_> {
         self.one_of(&beam, &axes, region, &mut small);
     }
 
-    /// Follows a single ray for all parts of a handful.
+    /// Traces one ray that represents all small parts of a beam.
     fn one_of(&mut self, beam: &WideBeam, axes: &Axes, region: &Region, small: &mut Handful) {
         let Handful { hit, range, flux } = std::mem::take(small);
         let c = range[0] + (range[1] - range[0]) * drawn(&mut self.random);
         self.surface(beam, axes, region, hit.as_ref(), [c, c], flux);
     }
 
-    /// Divides the part of a beam between two places across it at the surface that it meets there.
+    /// Divides the part of a beam between the coordinates `range` across it, with flux `flux`, at the surface `hit`
+    /// that it meets there.
     fn surface(
         &mut self,
         beam: &WideBeam,
@@ -259,8 +264,9 @@ impl Work<'_> {
         }
     }
 
-    /// Returns the flux with which two parts of a beam are followed; one of them with the flux of both where they are
-    /// small. On average both keep theirs.
+    /// Returns the flux with which two parts of a beam, of flux `a` and `b`, are traced: if they are small, one of
+    /// them, chosen at random, with the flux of both and the other with 0. The mean of each part's flux stays
+    /// unchanged.
     fn followed(&mut self, [a, b]: [f64; 2]) -> [f64; 2] {
         let total = a + b;
         let least = NEGLIGIBLE * self.share;
@@ -276,7 +282,8 @@ impl Work<'_> {
         }
     }
 
-    /// Divides a beam in the air at the pane of a side (0 outside, 1 inside), on its way in or out.
+    /// Divides a beam in the air at the outer (`side` 0) or inner (1) pane; `inwards`: the beam travels towards the
+    /// room.
     fn meet_pane(&mut self, beam: WideBeam, side: usize, inwards: bool) {
         let Some(pane) = self.section.panes[side] else {
             if inwards {
@@ -319,7 +326,7 @@ impl Work<'_> {
         }
     }
 
-    /// Returns a beam that a pane reflects to the bodies, from beyond their depths.
+    /// Returns a beam that a pane reflects back to the bodies, started outside the depths that they occupy.
     fn behind(&self, beam: WideBeam) -> WideBeam {
         let axes = Axes::new(beam.k);
         let [low, high] = self.section.depth;
@@ -351,7 +358,7 @@ impl Work<'_> {
     }
 }
 
-/// Returns a beam with the given flux, so that it represents others.
+/// Returns the beam with its flux set to `flux`, so that it represents other beams too.
 fn whole(mut beam: WideBeam, flux: f64) -> WideBeam {
     if beam.light.stokes.i <= 0.0 {
         return beam;
@@ -360,9 +367,11 @@ fn whole(mut beam: WideBeam, flux: f64) -> WideBeam {
     beam
 }
 
-/// Returns the mean internal transmittance over a beam whose ends travel the given lengths in the section.
+/// Returns the internal transmittance of a region, averaged over a beam whose two edges travel the given `lengths` in
+/// the section. \[periods\]
 ///
-/// The light that is left is taken as uniformly distributed, which is exact for weak absorption or parallel borders.
+/// The light that is left is assumed to be uniformly distributed across the beam, which is exact for weak absorption or
+/// parallel borders.
 fn mean_transmittance(region: &Region, beam: &WideBeam, lengths: [f64; 2]) -> f64 {
     // The true way is longer than its section.
     let slant = region.n2.sqrt() / DVec2::new(beam.k.y, beam.k.z).length();

@@ -1,4 +1,4 @@
-//! Laser-cut panels.
+//! Laser-cut panels: transparent sheets whose parallel cuts redirect light by total reflection.
 
 mod panel;
 mod shares;

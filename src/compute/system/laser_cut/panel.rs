@@ -6,10 +6,10 @@ use crate::compute::system::family::{Family, OpticalModelError, Polygons, rectan
 use crate::compute::system::measure::beams::{Beams, Effort, Shares, SharpBeam, SharpBeams};
 use crate::compute::system::measure::{OpticalModel, Side};
 
-/// Panel with cuts that do not reflect all light.
+/// Laser-cut panel whose cuts lose a share of the light that they reflect.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutPanel {
-    /// Sheet and spacing.
+    /// Panel with ideal cuts: its sheet, and the spacing of the cuts.
     pub panel: LaserCutPanel,
     /// Share of the light that is lost at every reflection at a cut (rough cuts scatter it; here it is absorbed).
     pub cut_loss: f64,
@@ -28,7 +28,7 @@ impl Family for CutPanel {
         Some(self.panel.spacing)
     }
 
-    /// Returns the piece of the sheet between two cuts, its outer face at depth 0.
+    /// Returns the section of the piece of the sheet between two cuts, with its outer face at depth 0.
     fn drawing(&self, _: &str) -> Polygons {
         let (depth, height) = (self.panel.sheet.thickness, self.panel.spacing);
         // Cuts are as wide as a laser beam; shown as a fiftieth.

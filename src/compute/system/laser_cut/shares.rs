@@ -1,41 +1,45 @@
 //! Laser-cut panels: a transparent sheet with plane cuts, horizontal and normal to its faces, at which light is
 //! totally reflected (Edmonds, Solar Energy Materials and Solar Cells 29, 1993).
 //!
-//! Inside the sheet a ray climbs t = (D/s)·|y′|/z′ spacings on one passage. Averaged over where it enters, the share
-//! f(t) = 1 − |1 − (t mod 2)| leaves with its vertical component reversed. A path of k passages has f(k t), so light
-//! that the faces reflect inside the sheet is followed exactly as well.
+//! Inside the sheet (thickness D, distance s of the cuts, direction cosines y′ upward and z′ along the normal) a ray
+//! climbs t = (D/s)·|y′|/z′ spacings on one passage. Averaged over the point of entry, the share f(t) = 1 − |1 − (t mod
+//! 2)| leaves with its vertical component reversed. A path of k passages has f(k t), so light that the faces reflect
+//! inside the sheet is followed exactly as well.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::panes::glazing::{Pane, fresnel};
 
-/// Laser-cut panel with horizontal cuts, for light from either side.
+/// Laser-cut panel with ideal horizontal cuts: its sheet, and the spacing of the cuts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LaserCutPanel {
     /// Sheet of the panel. Total reflection at the cuts for all incidence needs an index ≥ √2.
     pub sheet: Pane,
-    /// Distance between cuts. \[m\]
+    /// Vertical distance between cuts. \[m\]
     pub spacing: f64,
 }
 
-/// Shares of the light of one direction. Deflected light has its vertical component reversed.
+/// Shares of the incident light of one direction that a laser-cut panel transmits and reflects, undeviated or with the
+/// vertical component reversed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct PanelShares {
     /// Share transmitted undeviated.
     pub straight: f64,
     /// Share transmitted with the vertical component reversed.
     pub deflected: f64,
-    /// Share mirrored as by a pane.
+    /// Share reflected as by a plane mirror parallel to the panel.
     pub mirrored: f64,
     /// Share reflected with the vertical component reversed.
     pub returned: f64,
 }
 
-/// Returns the share that leaves with its vertical component reversed after climbing `t` spacings.
+/// Returns the share of light, 0 … 1, that leaves with its vertical component reversed after it has climbed `t`
+/// spacings of ideal cuts.
 pub fn deflected_share(t: f64) -> f64 {
     1.0 - (1.0 - t.rem_euclid(2.0)).abs()
 }
 
-/// Returns the shares that keep and that reverse their vertical component after climbing `t` spacings.
+/// Returns the shares of light that leave with their vertical component kept, and reversed, after climbing `t`
+/// spacings; every reflection at a cut loses the share `cut_loss`.
 fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
     if cut_loss == 0.0 {
         let turned = deflected_share(t);
@@ -48,9 +52,9 @@ fn after_cuts(t: f64, cut_loss: f64) -> [f64; 2] {
 }
 
 impl LaserCutPanel {
-    /// Returns the shares for light from one direction (façade frame), where every reflection at a cut loses the share
-    /// `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts, or one more for the part t − ⌊t⌋ of the places where
-    /// it may have begun; an odd number reverses its vertical component.
+    /// Returns the shares for light from the direction `d` (façade frame, of either side), where every reflection at a
+    /// cut loses the share `cut_loss`. A path that climbs t spacings meets ⌊t⌋ cuts, or one more for the share t − ⌊t⌋
+    /// of the possible points of entry; an odd number reverses its vertical component.
     pub fn shares(&self, d: Dir<Facade>, cut_loss: f64) -> PanelShares {
         let theta = d.theta();
         let (surface, inner) = fresnel(self.sheet.index, theta);

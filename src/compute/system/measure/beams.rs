@@ -1,11 +1,11 @@
-//! Systems that divide light of one direction into a few sharp beams: means over incident cells, flux into emergent
-//! cells.
+//! Systems that do not scatter, but divide light of one direction into sharp beams: patch-averaged BSDF data from their
+//! beams, averaged over incident cells and distributed over emergent cells.
 //!
-//! An incident cell is cut into parts of equal projected solid angle. The beams of one direction of each part are
+//! An incident cell is divided into parts of equal projected solid angle. The beams of one direction of each part are
 //! computed; those of the rest of the part follow from the change of the beams with the incident direction, so that
 //! flux is distributed at the resolution of the emergent cells and not of the parts. The flux of every part is kept
 //! exactly. The directions are a scrambled net: every power of two of them has one direction in every part. Their
-//! number is doubled, earlier results being kept, until the totals are within the allowed error.
+//! number is doubled, earlier results being reused, until the totals are within the allowed error.
 
 use super::cells::CellFinder;
 use super::merged::{merged, without_faint};
@@ -20,53 +20,54 @@ use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Sharp beam that leaves a system. All systems here are endless along x, so that light keeps the x of its through
-/// direction.
+/// Sharp beam that leaves a system. All systems here are endless along x, so that the direction of undeviated light of
+/// a beam has the same x as that of the incident light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SharpBeam {
-    /// Share of the incident flux.
+    /// Share of the incident flux that the beam carries.
     pub share: f64,
     /// Whether the beam is transmitted; otherwise it is reflected.
     pub transmitted: bool,
-    /// Direction cosine along y of the beam's through direction.
+    /// Direction cosine along y of the beam's direction of undeviated light (façade frame).
     pub y: f64,
-    /// Change of `y` with the direction cosines x and y of the incident through direction.
+    /// Derivatives of `y` with respect to the direction cosines x and y of the incident direction of undeviated light.
     pub change: [f64; 2],
 }
 
-/// Beams, absorbed and lost light of one incident direction.
+/// Beams that light of one incident direction becomes, with its absorbed share and the share that was not traced to the
+/// end.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Shares {
     /// Beams that leave the system.
     pub beams: Vec<SharpBeam>,
-    /// Share that is absorbed, including the share that was given up.
+    /// Share of the incident flux that is absorbed, including `lost`.
     pub absorbed: f64,
-    /// Share that was given up; it counts as an error.
+    /// Share of the incident flux that was not traced to the end; it counts as an error.
     pub lost: f64,
-    /// Number of surfaces that light was followed to; 0 for closed forms.
+    /// Number of surfaces that the light was traced to, a measure of the cost; 0 for closed forms.
     pub surfaces: u32,
 }
 
-/// Effort with which light is followed.
+/// Effort with which light is traced from surface to surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Beams with less than this share of the incident flux are no longer divided: one part, chosen at random in
-    /// proportion to its flux, stands for the whole.
+    /// proportion to its flux, represents all parts.
     pub share: f64,
     /// Seed of the random choice of parts.
     pub seed: u64,
-    /// Surfaces, counted over all beams together, up to which `share` holds. From there on it grows with their number,
-    /// and after ten times as many, one of the beams that are left, chosen at random in proportion to its
-    /// flux, stands for all. With it the work for one direction is bounded, without bias.
+    /// Number of surfaces, counted over all beams together, up to which `share` applies. Beyond it the share grows with
+    /// the number of surfaces, and after ten times as many one of the remaining beams, chosen at random in proportion
+    /// to its flux, represents all of them. This bounds the work for one direction without bias.
     pub surfaces: u32,
 }
 
 impl Effort {
-    /// Number of surfaces that is enough for common sections. Chosen: cost; beyond it light is divided less, without
-    /// bias, so that results change within their stated error.
+    /// Number of surfaces ([`Self::surfaces`]) that suffices for common sections. Chosen: cost; beyond it light is
+    /// divided less, without bias, so that results change within their stated error.
     pub const SURFACES: u32 = 1000;
 
-    /// Returns the least share that is divided after `surfaces` surfaces.
+    /// Returns the minimum share of the incident flux that a beam must have to be divided after `surfaces` surfaces.
     pub fn share_after(&self, surfaces: u32) -> f64 {
         if surfaces > self.surfaces {
             self.share * f64::from(surfaces) / f64::from(self.surfaces.max(1))
@@ -76,13 +77,15 @@ impl Effort {
     }
 }
 
-/// System that divides light into sharp beams, endless along x and symmetric left to right.
+/// System that does not scatter, but divides light into sharp beams; endless along x and symmetric left to right.
 pub trait Beams: Send + Sync {
-    /// Computes the beams of light of a through direction from a side into `out`, which is emptied first. `effort` is
-    /// for systems that follow very many beams.
+    /// Computes the beams that parallel light from `side` becomes and stores them in `out`, which is emptied first.
+    /// `name` is the direction of undeviated light (façade frame, z > 0; see [`super`]); `effort` matters for systems
+    /// that trace very many beams.
     fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
 
-    /// Whether a direction takes microseconds; `false` where light is followed from surface to surface.
+    /// Whether the beams of a direction are computed in microseconds; `false` where light is traced from surface to
+    /// surface.
     fn is_quick(&self) -> bool {
         true
     }
@@ -99,8 +102,8 @@ const MOST_DOUBLINGS: u32 = 20;
 /// Number of groups of directions from which the error is estimated; a power of two. Chosen: cost; eight give the
 /// standard error to 1/√(2·7) ≈ 27 %.
 const GROUPS: usize = 8;
-/// Number of standard errors that are stated as the error: 98 % of the true errors are smaller, by Student's
-/// distribution with the seven degrees of freedom of [`GROUPS`] (99.7 % by the normal distribution).
+/// Factor from the standard error to the stated error: 98 % of the true errors are smaller, by Student's distribution
+/// with the seven degrees of freedom of [`GROUPS`] (99.7 % by the normal distribution).
 const SURE: f64 = 3.0;
 /// Share of the allowed error at which no more directions are added. Below 1 because directions stop where the estimate
 /// happens to be small, while the largest error among hundreds of cells is to be within the allowed one. Chosen; held
@@ -112,32 +115,33 @@ const MOST_SURFACES: f64 = 3e5;
 /// Number of directions from which the mean number of surfaces that a ray meets is found. Chosen: cost; the mean
 /// decides how far light is divided, which is without bias.
 const PILOTS: u32 = 32;
-/// Factor of the least share that is divided. That share is proportional to the root of the allowed error and to the
-/// square of the mean number of surfaces that a ray meets: where they are many, following more directions reduces the
-/// error more than dividing the light of each. Chosen by trial: cost; results change within their stated error, held by
+/// Factor of the minimum share of the incident flux that a beam must have to be divided. That share is proportional to
+/// the root of the allowed error and to the square of the mean number of surfaces that a ray meets: where they are
+/// many, following more directions reduces the error more than dividing the light of each. Chosen by trial: cost;
+/// results change within their stated error, held by
 /// `tests/compute/goniophotometer_glass.rs::less_effort_means_more_noise_but_no_bias`.
 const DIVIDED: f64 = 5.5e-3;
-/// Number of places along either side of a square of the size of an emergent cell over which a strong beam is
-/// distributed: the border of a cell cuts a beam to 1 % of the cell's width. Chosen; held by
+/// Number of points along either side of a square of the size of an emergent cell over which a strong beam is
+/// distributed, so that a beam is split at the edge of a cell to 1 % of the cell's width. Chosen; held by
 /// `tests/compute/goniophotometer_glass.rs::cases_of_the_reference_kit`, at most 3 % of the light in other cells.
 const PLACES: f64 = 96.0;
-/// Maximum number of places along either side of a part. Chosen: cost; enough for [`PLACES`] on emergent cells four
-/// times as fine as the incident ones, which have at least 16 parts along a side (24 = 4 · 96/16).
+/// Maximum number of points along either side of a part of an incident cell. Chosen: cost; enough for [`PLACES`] on
+/// emergent cells four times as fine as the incident ones, which have at least 16 parts along a side (24 = 4 · 96/16).
 const MOST_PLACES: usize = 24;
-/// Share from which a beam is distributed over all places of its part; weaker beams over fewer in proportion, so that
-/// each place carries no more flux. Chosen: cost; held by the same test as [`PLACES`].
+/// Share of the incident flux from which a beam is distributed over all points of its part; weaker beams over fewer in
+/// proportion, so that no point carries more flux. Chosen: cost; held by the same test as [`PLACES`].
 const STRONG: f64 = 0.2;
-/// Effort for a single direction: strong beams to 1e-4 in a few milliseconds. Chosen; held to 2e-4 by
-/// `tests/compute/beams.rs::prisms_keep_all_light_in_beams_that_a_closer_look_confirms`.
+/// Effort for a single direction: finds the shares of strong beams to 1e-4 in a few milliseconds. Chosen; held to 2e-4
+/// by `tests/compute/beams.rs::prisms_keep_all_light_in_beams_that_a_closer_look_confirms`.
 const FINE: Effort = Effort { share: 1e-5, seed: 1, surfaces: 10_000 };
-/// Effort where neighbouring directions share a result, as the parts of a disc do: strong beams to 1e-3 of the light.
-/// Chosen: cost; ten times the share of [`FINE`], a fifth of its surfaces.
+/// Effort where neighbouring directions share a result, e.g. for the parts of the sun's disc: finds the shares of
+/// strong beams to 1e-3. Chosen: cost; ten times the share of [`FINE`], a fifth of its surfaces.
 const COARSE: Effort = Effort { share: 1e-4, seed: 1, surfaces: 2000 };
 /// Share of the incident flux that may be dropped from the beams of a single direction, for [`FINE`] and [`COARSE`]: a
 /// tenth of their share, below which single beams are random.
 const FAINT: [f64; 2] = [1e-6, 1e-5];
 
-/// Optical model of a system of sharp beams.
+/// Optical model of a system that does not scatter, but divides light into sharp beams.
 #[derive(Debug, Clone)]
 pub struct SharpBeams<B>(pub B);
 
@@ -162,7 +166,7 @@ impl<B: Beams> OpticalModel for SharpBeams<B> {
         self.0.is_quick()
     }
 
-    /// Returns no light: all of it stays in beams.
+    /// Returns no scattered light, since all light stays in beams.
     fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
         ScatteredLight::default()
     }
@@ -180,7 +184,8 @@ fn beams_of(system: &impl Beams, name: Dir<Facade>, side: Side, effort: Effort, 
     without_faint(merged(beams), faint)
 }
 
-/// Computes transmission and reflection of both sides of a system of sharp beams.
+/// Computes transmission and reflection of both sides of a system that divides light into sharp beams, as
+/// patch-averaged data.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -226,8 +231,8 @@ pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progre
     Ok(measured)
 }
 
-/// Returns the index of the mirror image of every cell; `None` if the cells are not symmetric. `turned` gives the
-/// azimuth of a direction after the exchange of left and right or of up and down.
+/// Returns the index of the symmetric counterpart of every cell of a basis; `None` if the cells are not symmetric.
+/// `turned` maps an azimuth \[rad\] to that of the counterpart, e.g. with left and right exchanged.
 pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<Vec<usize>> {
     let image = |cell: Cell| {
         let other = basis.index(Dir::from_theta_phi(cell.theta(), turned(cell.phi)))?;
@@ -239,9 +244,10 @@ pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<V
     basis.cells().map(image).collect()
 }
 
-/// Scattering of one incident cell, summed over its directions.
+/// Scattering of one incident cell, summed over the directions computed in it.
 struct Row {
-    /// Flux into the emergent cells, summed over directions of unit flux; 1/sr when it is finished.
+    /// Flux into the emergent cells, summed over directions of unit incident flux; mean q \[1/sr\] after
+    /// [`Self::finish`].
     transmitted: Vec<f64>,
     reflected: Vec<f64>,
     absorbed: f64,
@@ -249,7 +255,7 @@ struct Row {
     error: f64,
     /// τ and ρ of all directions, in the order in which they were computed.
     totals: Vec<[f64; 2]>,
-    /// Number of surfaces that light was followed to.
+    /// Number of surfaces that the light was traced to.
     surfaces: f64,
 }
 
@@ -266,8 +272,9 @@ impl Row {
         }
     }
 
-    /// Returns the larger error of τ and ρ: [`SURE`] standard errors, as if the groups of directions, each of them a
-    /// net all over the cell, were drawn independently. Together they are distributed more uniformly still.
+    /// Returns the estimated error of τ or of ρ, the larger one: [`SURE`] standard errors, as if the groups of
+    /// directions, each of them a net all over the cell, were drawn independently. Together they are distributed more
+    /// uniformly still.
     fn uncertainty(&self) -> f64 {
         let groups = GROUPS as f64;
         let size = (self.totals.len() / GROUPS).max(1);
@@ -280,7 +287,8 @@ impl Row {
         SURE * one(0).max(one(1))
     }
 
-    /// Converts sums over directions to means.
+    /// Converts the sums over directions to means over the cell; `weights`: projected solid angles of the emergent
+    /// cells \[sr\].
     fn finish(&mut self, weights: &[f64]) {
         let each = 1.0 / self.totals.len() as f64;
         for values in [&mut self.transmitted, &mut self.reflected] {
@@ -301,7 +309,7 @@ impl Row {
     }
 }
 
-/// Computation of all cells: system, settings and cell tables.
+/// Data for the computation of all incident cells: system, settings and tables of the cells.
 struct Bench<'a, B> {
     system: &'a B,
     setting: &'a Setting<'a>,
@@ -309,9 +317,10 @@ struct Bench<'a, B> {
     weights: Vec<f64>,
     /// Typical width of an emergent cell as a direction cosine.
     fineness: f64,
-    /// Whether the incident cells are the emergent ones.
+    /// Whether the incident and the emergent cells are the same.
     same: bool,
-    /// Mirror image of every cell, up and down exchanged, where the cells have them and `same` holds.
+    /// Index of the mirror image of every cell with up and down exchanged; `None` if the cells are not symmetric or
+    /// `same` is `false`.
     below: Option<Vec<usize>>,
 }
 
@@ -324,7 +333,8 @@ impl<'a, B: Beams> Bench<'a, B> {
         Self { system, setting, finder: CellFinder::new(setting.emergent), weights, fineness, same, below }
     }
 
-    /// Computes a cell: directions are doubled until its error is met, or its light has met too many surfaces.
+    /// Computes the scattering of one incident cell: the number of directions is doubled until the allowed error is
+    /// met, or until the light has met too many surfaces.
     fn row(&self, side: Side, index: usize) -> Row {
         let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
         let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
@@ -340,12 +350,14 @@ impl<'a, B: Beams> Bench<'a, B> {
         row
     }
 
-    /// Returns the seed of a direction of a cell, on any thread; number 0 is for the directions themselves.
+    /// Returns the seed for direction `number` of the incident cell `index`, the same on any thread; number 0 is the
+    /// seed of the sequence of directions.
     fn seed(&self, side: Side, index: usize, number: u64) -> u64 {
         mixed(self.setting.seed, [u64::from(side == Side::Back), index as u64, number])
     }
 
-    /// Returns the share of the incident flux down to which the light of a cell is divided.
+    /// Returns the minimum share of the incident flux that a beam must have to be divided, for light of the incident
+    /// cell `index`.
     fn share(&self, side: Side, index: usize) -> f64 {
         let cell = self.setting.incident.cell(index);
         let base = self.seed(side, index, 0);
@@ -360,7 +372,8 @@ impl<'a, B: Beams> Bench<'a, B> {
         (DIVIDED * self.setting.error.sqrt() * surfaces * surfaces).clamp(1e-6, 1.0)
     }
 
-    /// Adds directions of a cell: as many numbers of the sequence as a power of two, from a multiple of it on.
+    /// Adds the scattering of the directions `numbers` of the cell's sequence to `row`; their count is a power of two,
+    /// and the first a multiple of it.
     fn add_net(&self, row: &mut Row, side: Side, index: usize, share: f64, numbers: Range<u32>) {
         let doublings = numbers.len().ilog2();
         let cell = self.setting.incident.cell(index);
@@ -418,7 +431,8 @@ impl<'a, B: Beams> Bench<'a, B> {
         }
     }
 
-    /// Returns the emergent cell of light from a direction that lies (`dx`, `dy`) beside the middle of its part.
+    /// Returns the emergent cell of a beam for incident light whose direction cosines differ by (`dx`, `dy`) from those
+    /// (`x`, `y`) that the beam was computed for.
     fn target(&self, [x, y]: [f64; 2], [dx, dy]: [f64; 2], beam: &SharpBeam) -> Option<usize> {
         let x = x + dx;
         // The slope holds near the middle only: no farther than light can go.
@@ -429,7 +443,7 @@ impl<'a, B: Beams> Bench<'a, B> {
     }
 }
 
-/// Middles of the parts of a cell, in rows and columns.
+/// Directions at the centres of a regular division of a cell into rows (in sin²θ) and columns (in φ).
 struct Places {
     /// sinθ of the rows.
     radii: Vec<f64>,
@@ -451,13 +465,13 @@ impl Places {
         }
     }
 
-    /// Returns the direction cosines (x, y) of a place.
+    /// Returns the direction cosines (x, y) of the direction in the given row and column.
     fn at(&self, [row, column]: [usize; 2]) -> [f64; 2] {
         self.turns[column].map(|turn| self.radii[row] * turn)
     }
 }
 
-/// Returns a direction of a cell; both coordinates from 0 to 1, rising in sin²θ and in φ.
+/// Returns the direction of a cell at the coordinates `row` and `column` (0 … 1), which are linear in sin²θ and in φ.
 fn point(cell: &Cell, row: f64, column: f64) -> Dir<Facade> {
     let (low, high) = (cell.theta_min.sin().powi(2), cell.theta_max.sin().powi(2));
     let sin2 = low + (high - low) * row;

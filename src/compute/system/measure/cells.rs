@@ -1,4 +1,4 @@
-//! Search for the cells of very many directions.
+//! Fast search for the cells of a basis that contain given directions.
 
 use crate::compute::basis::RingBasis;
 use std::f64::consts::PI;
@@ -6,22 +6,23 @@ use std::f64::consts::PI;
 /// Number of slots of the table over sin²θ. Chosen: cost only, no effect on results.
 const SLOTS: usize = 4096;
 
-/// Table of the cells of a basis by lateral direction cosines.
+/// Table by which the cell of a basis is found from the direction cosines x and y.
 pub(super) struct CellFinder {
     rings: Vec<RingOfCells>,
-    /// First ring (by rising θ) that may hold a slot of sin²θ.
+    /// Index of the first ring (by rising θ) that may contain directions of each slot of sin²θ.
     slots: Vec<u32>,
 }
 
 struct RingOfCells {
-    /// Lower limit of sin²θ; `to` is the upper one.
+    /// Lower limit of sin²θ of the ring; `to` is the upper one.
     from: f64,
     to: f64,
-    /// Starts of the sectors, in rising values of [`diamond`], with their cells.
+    /// Starts of the ring's sectors as values of [`diamond`], rising, each with the index of its cell.
     sectors: Vec<(f64, usize)>,
 }
 
 impl CellFinder {
+    /// Creates the table of a basis.
     pub fn new(basis: &RingBasis) -> Self {
         let sin2 = |theta: f64| theta.sin().powi(2);
         let mut rings: Vec<RingOfCells> = basis
@@ -41,7 +42,7 @@ impl CellFinder {
         Self { rings, slots }
     }
 
-    /// Returns the cell that contains (x, y); `None` in gaps between rings.
+    /// Returns the index of the cell that contains the direction with cosines (x, y); `None` in gaps between rings.
     pub fn find(&self, x: f64, y: f64) -> Option<usize> {
         let sin2 = (x * x + y * y).min(1.0);
         let slot = ((sin2 * SLOTS as f64) as usize).min(SLOTS - 1);
@@ -73,7 +74,7 @@ impl CellFinder {
     }
 }
 
-/// Returns a measure of azimuth that rises with it from 0 to 4, without an arc tangent.
+/// Returns a monotonic measure of the azimuth of (x, y), from 0 to 4 for 0 to 2π, computed without an arc tangent.
 fn diamond(x: f64, y: f64) -> f64 {
     let sum = x.abs() + y.abs();
     if sum == 0.0 {
@@ -87,7 +88,8 @@ fn diamond(x: f64, y: f64) -> f64 {
     }
 }
 
-/// Returns the starts of the sectors of a ring with their cells, façade azimuth rising.
+/// Returns the starts of the sectors of a ring as values of [`diamond`], each with the index of its cell, in the order
+/// of rising azimuth in the façade frame.
 fn sectors(basis: &RingBasis, first_cell: usize, count: usize) -> Vec<(f64, usize)> {
     let mut list: Vec<(f64, usize)> = (first_cell..first_cell + count)
         .map(|index| {

@@ -1,5 +1,5 @@
-//! Scattering of single incident directions on emergent cells, as a goniophotometer finds it for the directions of its
-//! list; not means over incident cells.
+//! Scattering of single incident directions on emergent cells, as a goniophotometer measures it for a list of
+//! directions, without averages over incident cells.
 
 use super::cells::CellFinder;
 use super::fan::{middle, pieces};
@@ -12,12 +12,13 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Width of the parts into which a fan is divided, each in one cell. \[rad\] Chosen: cost; 1/90 of a Klems cell of 10°,
-/// of which half a part at most falls on the wrong side of a border.
+/// Angular width of the parts into which a fan of light is divided; each part counts in one cell. \[rad\] Chosen: cost;
+/// 1/90 of a Klems cell of 10°, of which half a part at most falls on the wrong side of a border.
 const PIECE: f64 = 0.002;
 
-/// Computes q of every emergent cell for light of the given through directions from a side; beams count in the cells
-/// that they fall in. Light that is neither transmitted nor reflected counts as absorbed.
+/// Computes the mean q of every emergent cell for light from `side` of each of the directions `names`, which are
+/// directions of undeviated light (see [`super`]). Beams count in the cell that they fall into; light that is neither
+/// transmitted nor reflected counts as absorbed.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -52,7 +53,8 @@ pub fn at_directions(
     Ok(made)
 }
 
-/// Computes transmission and reflection of both sides at the centres of the incident cells of a setting.
+/// Computes transmission and reflection of both sides for the directions at the centres of the incident cells of
+/// `setting`, without averages over these cells.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -68,7 +70,7 @@ pub fn measured_at_directions(
 }
 
 impl Measured {
-    /// Returns the data as a band of single incident directions, the centres of the incident cells.
+    /// Returns the data as a band of BSDF data at single incident directions, the centres of the incident cells.
     pub fn band_at_directions(&self) -> Band {
         let incident: Vec<Incident> = self.incident.cells().map(|cell| Incident(cell.centre())).collect();
         let mut band = Band::default();
@@ -85,7 +87,7 @@ impl Measured {
     }
 }
 
-/// Computes the scattering of one direction.
+/// Computes the scattering of light of one direction into the emergent cells.
 fn row(
     model: &dyn OpticalModel,
     side: Side,

@@ -1,14 +1,16 @@
-//! Pieces of a fan: the light of a curved mirror, uniformly distributed between two directions.
+//! Division of a fan of light into pieces. A fan is light that a curved mirror distributes uniformly between two
+//! directions.
 
 use super::parallel::Beam;
 use crate::compute::direction::{Dir, Facade};
 use glam::DVec3;
 
-/// Difference below which direction cosines are equal: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per operation), and
+/// Difference below which two direction cosines count as equal: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per
+/// operation), and
 /// 0.0002″ as an angle.
 const EQUAL: f64 = 1e-9;
 
-/// Divides a fan into equal parts, none wider than `step` \[rad\]; a parallel beam stays one part.
+/// Divides a fan into parts of equal angle, none wider than `step` \[rad\]; a parallel beam stays one part.
 pub fn pieces(beam: &Beam, step: f64) -> impl Iterator<Item = Beam> {
     let beam = *beam;
     let parallel = beam.names[0] == beam.names[1];
@@ -18,19 +20,19 @@ pub fn pieces(beam: &Beam, step: f64) -> impl Iterator<Item = Beam> {
     (0..count).map(move |k| if count == 1 { beam } else { Beam { names: [at(k), at(k + 1)], share, ..beam } })
 }
 
-/// Returns the through direction in the middle of a fan.
+/// Returns the direction in the middle of a fan, as a direction of undeviated light like those of its ends.
 pub fn middle(beam: &Beam) -> Dir<Facade> {
     if beam.names[0] == beam.names[1] { beam.names[0] } else { between(beam, 0.5) }
 }
 
-/// Returns the angle between the ends of a fan. \[rad\]
+/// Returns the angle between the two end directions of a fan. \[rad\]
 pub fn wide(beam: &Beam) -> f64 {
     let [a, b] = beam.names.map(|name| name.vector());
     a.cross(b).length().atan2(a.dot(b))
 }
 
-/// Returns the through direction at a share from 0 to 1 between the ends. Systems that are endless along an axis keep
-/// the direction cosine along it and distribute light uniformly in the angle about it.
+/// Returns the direction at the fraction `part`, 0 … 1, of the way from one end of a fan to the other. Systems that are
+/// endless along an axis keep the direction cosine along it and distribute light uniformly in the angle about it.
 fn between(beam: &Beam, part: f64) -> Dir<Facade> {
     let [a, b] = beam.names.map(|name| name.vector());
     let axis = if (a.x - b.x).abs() < EQUAL {

@@ -2,7 +2,7 @@
 //!
 //! The computation is parallel, and so may be the calls for it. A thread of the common pool that waits for its parts
 //! takes up other work meanwhile: perhaps another direction, which would wait for the result that this thread is
-//! computing. So the result is computed in a separate pool, while the calling thread rests.
+//! computing, a deadlock. So the result is computed in a separate pool, while the calling thread sleeps.
 
 use crate::compute::basis::RingBasis;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// results.
 const MOST: usize = 8;
 
-/// Result that is computed once.
+/// Cell for a result that is computed once, by the first thread that needs it.
 #[derive(Debug)]
 pub struct Once<T>(OnceLock<T>);
 
@@ -22,13 +22,13 @@ impl<T> Default for Once<T> {
 }
 
 impl<T: Send> Once<T> {
-    /// Returns the result, computed by the first call. Other threads wait for it.
+    /// Returns the result, which the first call computes by `make`; other threads wait for it.
     pub fn get(&self, make: impl FnOnce() -> T + Send) -> &T {
         self.0.get_or_init(|| run_in_new_pool(make))
     }
 }
 
-/// Cache of results by basis.
+/// Cache of results that depend on a division of the hemisphere into cells (a basis), one result per basis.
 pub struct Kept<T>(Mutex<Vec<(RingBasis, Arc<T>)>>);
 
 impl<T> Default for Kept<T> {
@@ -45,7 +45,7 @@ impl<T> Kept<T> {
 }
 
 impl<T: Send> Kept<T> {
-    /// Returns the result for a basis, computed by the first call. Other threads wait for it.
+    /// Returns the result for the basis `cells`, which the first call computes by `make`; other threads wait for it.
     pub fn get(&self, cells: &RingBasis, make: impl FnOnce() -> T + Send) -> Arc<T> {
         // Cached results are complete even if another thread has failed while it held the lock.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -61,7 +61,7 @@ impl<T: Send> Kept<T> {
     }
 }
 
-/// Computes a result in a separate thread pool.
+/// Computes a result in a separate thread pool, while the calling thread sleeps.
 fn run_in_new_pool<T: Send>(make: impl FnOnce() -> T + Send) -> T {
     let threads = rayon::current_num_threads();
     let work = move || match rayon::ThreadPoolBuilder::new().num_threads(threads).build() {

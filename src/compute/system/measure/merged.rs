@@ -2,11 +2,13 @@
 
 use super::parallel::Beam;
 
-/// Difference up to which direction cosines are the same: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per operation), and
+/// Difference up to which two direction cosines count as the same: above all rounding of f64 (2⁻⁵² ≈ 2.2e-16 per
+/// operation), and
 /// 0.0002″ as an angle.
 pub const SAME: f64 = 1e-9;
 
-/// Merges beams of equal directions, their shares summed. The order depends on the directions only.
+/// Merges beams of equal directions into one with the sum of their shares. The order of the result depends on the
+/// directions only.
 pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
     let beams: Vec<Beam> = beams.into_iter().collect();
     if beams.len() < 2 {
@@ -31,14 +33,15 @@ pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
     placed.into_iter().map(|(_, beam)| beam).collect()
 }
 
-/// Returns the number of the interval of width [`SAME`] that a direction cosine lies in; those of one interval are the
-/// same.
+/// Returns the number of the interval of width [`SAME`] that contains a direction cosine; cosines with the same number
+/// count as equal.
 pub fn place(cosine: f64) -> i64 {
     let scaled = cosine / SAME;
     (scaled + 0.5_f64.copysign(scaled)) as i64
 }
 
-/// Returns the beams, strongest first, without the faintest ones, which together carry at most `share`.
+/// Returns the beams in the order of falling share, without the faintest ones, which together carry at most `share` of
+/// the incident flux.
 pub fn without_faint(mut beams: Vec<Beam>, share: f64) -> Vec<Beam> {
     beams.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut left = share;

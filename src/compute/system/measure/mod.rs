@@ -1,15 +1,16 @@
 //! Virtual goniophotometer: BTDF and BRDF of a described system, from both sides, as means over the incident **and**
 //! the emergent cells.
 //!
-//! # Through directions
-//! Every direction, also a reflected one, is given by its through direction, a vector on the outward half (z > 0 in the
-//! façade frame). Undeviated light keeps its through direction, and so does a mirror image:
+//! # Directions of undeviated light
+//! Every direction, also a reflected one, is given by its *direction of undeviated light*, a unit vector on the outward
+//! half (z > 0 in the façade frame) that is the same before and after the system for light that passes undeviated, and
+//! also for its mirror image. In the code it is called `name`:
 //! * light from outside: lateral part = −(x, y) of the direction in which light **travels**, before and after the
 //!   system, transmitted or reflected (for incident light it is the direction towards the source);
 //! * light from inside: lateral part = +(x, y) of the direction in which light travels.
 //!
-//! By through directions reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side,
-//! where the bar rotates a direction by 180° about the normal.
+//! By these directions reciprocity reads T_back(a → b) = T_front(b → a), and R(a → b) = R(b̄ → ā) on either side, where
+//! the bar rotates a direction by 180° about the normal.
 
 pub mod beams;
 mod cells;
@@ -30,12 +31,12 @@ use crate::compute::btdf::{Band, Btdf, CellMatrix, Component};
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 
-/// Returns the cells of data of computed systems: LBNL/Klems Full, numbered as for light from outside.
+/// Returns the basis of the data of computed systems: LBNL/Klems Full, numbered as for light from outside.
 pub fn front_basis() -> RingBasis {
     RingBasis::klems_full(AzimuthMap::KLEMS_FRONT)
 }
 
-/// Side that light comes from.
+/// Side of a system that light comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
     /// Light from outside.
@@ -45,43 +46,46 @@ pub enum Side {
 }
 
 impl Side {
-    /// Both sides, front first.
+    /// Both sides: outside, then room side.
     pub const BOTH: [Self; 2] = [Self::Front, Self::Back];
 }
 
-/// Settings of a computation of scattering: cells, allowed error, seed.
+/// Settings of a computation of BSDF data: incident and emergent cells, allowed error, seed of random numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Setting<'a> {
-    /// Incident cells, by through direction.
+    /// Incident cells, which contain directions of undeviated light (see [`self`]).
     pub incident: &'a RingBasis,
-    /// Emergent cells, by through direction.
+    /// Emergent cells, which contain directions of undeviated light (see [`self`]).
     pub emergent: &'a RingBasis,
     /// Allowed absolute error of the direct-hemispherical transmittance and reflectance of any incident cell. The
-    /// program chooses its effort by it.
+    /// effort of the computation follows from it.
     pub error: f64,
     /// Seed of random numbers. The same seed gives the same values on any number of threads.
     pub seed: u64,
 }
 
-/// Scattering of light from one side, by cells.
+/// Scattering of light from one side of a system, as means over incident and emergent cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct OneSide {
-    /// q of transmitted light, `[i · emergent.len() + o]`. \[1/sr\]
+    /// Mean luminance coefficient q of transmitted light from incident cell i into emergent cell o, at index
+    /// `i · emergent.len() + o`. \[1/sr\]
     pub transmitted: Vec<f64>,
-    /// q of reflected light, `[i · emergent.len() + o]`. \[1/sr\]
+    /// Mean luminance coefficient q of reflected light from incident cell i into emergent cell o, at index
+    /// `i · emergent.len() + o`. \[1/sr\]
     pub reflected: Vec<f64>,
-    /// Absorbed share of each incident cell. Counted on its own, not as the rest, wherever the method can.
+    /// Absorptance for light of each incident cell. Computed independently of τ and ρ, not as 1 − τ − ρ, wherever the
+    /// method allows it.
     pub absorbed: Vec<f64>,
-    /// Estimated absolute error of τ and ρ of each incident cell.
+    /// Estimated absolute error of the direct-hemispherical τ and ρ of each incident cell.
     pub error: Vec<f64>,
 }
 
-/// Transmission and reflection of both sides as patch-averaged data, with absorption and errors.
+/// Computed transmission and reflection of a system from both sides as patch-averaged data, with absorption and errors.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measured {
-    /// Incident cells.
+    /// Incident cells of the data.
     pub incident: RingBasis,
-    /// Emergent cells.
+    /// Emergent cells of the data.
     pub emergent: RingBasis,
     /// Scattering of light from outside.
     pub front: OneSide,
@@ -89,14 +93,15 @@ pub struct Measured {
     pub back: OneSide,
 }
 
-/// Direction of the structure that light of neighbouring directions hits or misses.
+/// Symmetry of a system's structure (slats, prisms, holes), which decides how much the light of neighbouring directions
+/// can differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Structure {
-    /// No structure: light of neighbouring directions is treated alike.
+    /// No structure: scattering changes little between neighbouring directions.
     Even,
-    /// Structure endless along one axis: light of neighbouring directions differs by the profile angle only.
+    /// Structure endless along one axis: scattering of neighbouring directions differs by their profile angle only.
     Along {
-        /// Whether the structure runs along y; otherwise it runs along x.
+        /// Whether the structure runs along y (vertically); otherwise it runs along x.
         upright: bool,
     },
     /// Any other structure.
@@ -104,7 +109,7 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// Returns the structure of two layers together.
+    /// Returns the structure of two layers, one behind the other.
     pub fn and(self, other: Self) -> Self {
         match (self, other) {
             (Self::Even, other) => other,
@@ -114,7 +119,7 @@ impl Structure {
         }
     }
 
-    /// Returns the structure rotated by 90° about the normal.
+    /// Returns the structure of a system rotated by 90° about its normal.
     pub const fn turned(self) -> Self {
         match self {
             Self::Along { upright } => Self::Along { upright: !upright },
@@ -123,19 +128,22 @@ impl Structure {
     }
 }
 
-/// Angle below which two through directions are the same. \[rad\] Above all rounding of f64, and 0.0002″.
+/// Angle below which two directions of undeviated light count as the same. \[rad\] Above all rounding of f64, and
+/// 0.0002″.
 const SAME_NAME: f64 = 1e-9;
 
 /// Optical model of a system: computes its scattering for any direction.
 pub trait OpticalModel: Send + Sync {
-    /// Computes transmission and reflection of both sides on the cells of `setting`, within its error.
+    /// Computes transmission and reflection of both sides as means over the cells of `setting`, within its allowed
+    /// error.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled>;
 
-    /// Computes the band of BSDF data and its quality. Regular transmission and reflection are stored separately where
-    /// they depend on the polar angle only; otherwise they are spread over their cells.
+    /// Computes BSDF data of both sides on the cells of `setting`, as one band (visible or solar), and their quality.
+    /// Regular transmission and reflection are stored separately where they depend on the polar angle only; otherwise
+    /// they are spread over their cells.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -144,56 +152,61 @@ pub trait OpticalModel: Send + Sync {
         Ok((measured.band(), measured.quality()))
     }
 
-    /// Returns the exact beams that parallel light from a side becomes: undeviated (the through direction kept),
-    /// redirected, mirrored. Light that mirrors or edges spread is not among them.
+    /// Returns the exact beams that parallel light from `side` becomes: undeviated, redirected and mirrored ones.
+    /// `name` is the direction of undeviated light (see [`self`]), for light from outside the direction towards the
+    /// source. Light that rough mirrors or edges spread is not among the beams.
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam>;
 
-    /// Returns the share of parallel light that is transmitted undeviated.
+    /// Returns the share of parallel light from `side` that is transmitted undeviated; `name`: direction of undeviated
+    /// light.
     fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
         let same = |other: &Dir<Facade>| other.vector().distance(name.vector()) < SAME_NAME;
         let on = |beam: &Beam| beam.transmitted && beam.names.iter().all(same);
         self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
     }
 
-    /// Returns the axis of the structure if scattering depends on the profile angle only, the direction cosine along
-    /// the structure kept: `Some(true)` for a structure along y (profile angle to the right), `Some(false)` for one
-    /// along x.
+    /// Returns the axis of the structure if scattering depends on the profile angle only, while the direction cosine
+    /// along the structure stays unchanged: `Some(true)` for a structure along y (profile angle to the right),
+    /// `Some(false)` for one along x.
     fn by_profile_alone(&self) -> Option<bool> {
         None
     }
 
-    /// Returns beams like [`Self::beams`], but of a direction at most `within` \[rad\] from `name`, so that neighbours
-    /// may share them.
+    /// Returns beams like [`Self::beams`], but for a direction at most `within` \[rad\] from `name`, so that
+    /// neighbouring directions can share one result.
     fn beams_about(&self, name: Dir<Facade>, side: Side, _within: f64) -> Vec<Beam> {
         self.beams(name, side)
     }
 
-    /// Returns the direction of the structure that light of neighbouring directions hits or misses.
+    /// Returns the symmetry of the system's structure, which decides how much the light of neighbouring directions can
+    /// differ.
     fn structure(&self) -> Structure {
         Structure::Any
     }
 
-    /// Whether a single direction takes microseconds to a millisecond, so that thousands can be computed.
+    /// Whether the light of a single direction is computed within a millisecond, so that thousands of directions can
+    /// be.
     fn is_quick(&self) -> bool {
         true
     }
 
-    /// Whether [`Self::examine`] stores undeviated light separately.
+    /// Whether [`Self::examine`] stores undeviated light separately, as regular transmission.
     fn separates_regular(&self) -> bool {
         false
     }
 
-    /// Returns the scattered transmitted light where it depends on the profile angle only; [`Self::scattered`] then
-    /// gives the same light by cells.
+    /// Returns the scattered transmitted light as a function of the profile angle, if it depends on nothing else;
+    /// [`Self::scattered`] then gives the same light by cells. `None` otherwise.
     fn profile_light(&self, _name: Dir<Facade>, _side: Side) -> Option<ProfileLight> {
         None
     }
 
-    /// Returns the light that is not in beams, on emergent cells.
+    /// Returns the scattered light, all that is not in beams, as means over the emergent cells, for parallel light from
+    /// `side` in the direction of undeviated light `name`.
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
 
-    /// Returns scattered light like [`Self::scattered`], for callers that use transmitted light only: the reflected
-    /// part may be empty.
+    /// Returns scattered light like [`Self::scattered`], for callers that need the transmitted light only: the
+    /// reflected part may be empty.
     fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.scattered(name, side, emergent)
     }
@@ -202,17 +215,17 @@ pub trait OpticalModel: Send + Sync {
 /// Quality of computed data: energy balance, reciprocity and estimated error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quality {
-    /// Largest |τ + ρ + α − 1| over the incident cells of both sides.
+    /// Energy balance: largest |τ + ρ + α − 1| over the incident cells of both sides.
     pub balance: f64,
-    /// Σ |T_front(a→b) − T_back(b→a)| over the flux of both, weighted by projected solid angles; `None` where the
-    /// incident cells are not the emergent ones, or nothing passes.
+    /// Deviation from reciprocity: Σ |T_front(a→b) − T_back(b→a)| over the mean flux of both, weighted by projected
+    /// solid angles; `None` where the incident cells are not the emergent ones, or nothing is transmitted.
     pub reciprocity: Option<f64>,
-    /// Largest estimated absolute error of τ and ρ.
+    /// Largest estimated absolute error of τ and ρ over the incident cells of both sides.
     pub error: f64,
 }
 
 impl Quality {
-    /// Returns the worse of two qualities, figure by figure.
+    /// Returns the worse value of two qualities for each of the three figures.
     pub fn worse(self, other: Self) -> Self {
         let reciprocity = match (self.reciprocity, other.reciprocity) {
             (Some(a), Some(b)) => Some(a.max(b)),
@@ -222,9 +235,10 @@ impl Quality {
     }
 }
 
-/// Returns zeros for a matrix on fine cells, in memory pages that exist once they are written to and are freed with it:
-/// the C library of Linux keeps freed blocks below 32 MiB to itself once it has seen one of their size, and a window
-/// that computes one stack after another held twice what it used. Memory reserved beyond `count` is never touched.
+/// Returns `count` zeros for a matrix on fine cells, in memory pages that are allocated when they are first written to
+/// and returned to the operating system with the matrix: the C library of Linux keeps freed blocks below 32 MiB to
+/// itself once it has seen one of their size, and a window that computes one stack after another held twice what it
+/// used. Memory reserved beyond `count` is never touched.
 pub fn zeros(count: usize) -> Vec<f64> {
     /// Number of values from which a block gets pages that are freed with it: 2 MiB. Chosen: memory only, no effect on
     /// results.
@@ -251,7 +265,7 @@ impl Measured {
         Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back }
     }
 
-    /// Returns the scattering of light from one side.
+    /// Returns the scattering of light from `side`.
     pub const fn seen(&self, side: Side) -> &OneSide {
         match side {
             Side::Front => &self.front,
@@ -259,7 +273,7 @@ impl Measured {
         }
     }
 
-    /// Returns the scattering of light from one side, to be filled in.
+    /// Returns the scattering of light from `side`, to be filled in.
     pub const fn seen_mut(&mut self, side: Side) -> &mut OneSide {
         match side {
             Side::Front => &mut self.front,
@@ -267,13 +281,14 @@ impl Measured {
         }
     }
 
-    /// Returns the direct-hemispherical transmittance or reflectance of every incident cell.
+    /// Returns the direct-hemispherical transmittance or reflectance of every incident cell from its coefficients `q`
+    /// \[1/sr\] by emergent cell.
     pub fn shares(&self, q: &[f64]) -> Vec<f64> {
         let weight = self.emergent.projected_solid_angles();
         q.chunks_exact(weight.len()).map(|row| row.iter().zip(&weight).map(|(q, w)| q * w).sum()).collect()
     }
 
-    /// Returns the data as a band of patch-averaged data.
+    /// Returns the data as one band (visible or solar) of patch-averaged BSDF data.
     pub fn band(&self) -> Band {
         let mut band = Band::default();
         let mut set = |component, values: &[f64]| {
@@ -287,7 +302,7 @@ impl Measured {
         band
     }
 
-    /// Returns balance, reciprocity and error of the data.
+    /// Returns the quality of the data: energy balance, reciprocity and estimated error.
     pub fn quality(&self) -> Quality {
         let mut balance: f64 = 0.0;
         let mut error: f64 = 0.0;
@@ -302,6 +317,7 @@ impl Measured {
         Quality { balance, reciprocity: self.reciprocity(), error }
     }
 
+    /// Returns the deviation from reciprocity of [`Quality::reciprocity`].
     fn reciprocity(&self) -> Option<f64> {
         let same = same_cells(&self.emergent, &self.incident)?;
         let weight = self.incident.projected_solid_angles();

@@ -2,36 +2,41 @@
 
 use crate::compute::direction::{Dir, Facade};
 
-/// Beam that parallel light becomes. Directions are through directions, see [`super`].
+/// Beam or fan that parallel light becomes in a system. Its directions are directions of undeviated light, see
+/// [`super`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Beam {
-    /// Through directions of both ends: equal for a parallel beam; the fan of a curved mirror is uniform between them.
+    /// Directions of undeviated light of both ends: equal for a parallel beam; the fan of a curved mirror is uniformly
+    /// distributed between them.
     pub names: [Dir<Facade>; 2],
-    /// Share of the incident flux.
+    /// Share of the incident flux that the beam carries.
     pub share: f64,
     /// Whether the beam is transmitted; otherwise it is reflected.
     pub transmitted: bool,
 }
 
 impl Beam {
-    /// Creates a parallel beam that is transmitted.
+    /// Creates a transmitted parallel beam with the direction of undeviated light `name`, which carries `share` of the
+    /// incident flux.
     pub const fn through(name: Dir<Facade>, share: f64) -> Self {
         Self { names: [name, name], share, transmitted: true }
     }
 
-    /// Creates a parallel beam that is reflected.
+    /// Creates a reflected parallel beam with the direction of undeviated light `name`, which carries `share` of the
+    /// incident flux.
     pub const fn back(name: Dir<Facade>, share: f64) -> Self {
         Self { names: [name, name], share, transmitted: false }
     }
 }
 
-/// Scattered part of parallel light, all that is not in beams.
+/// Scattered part of the light that parallel light becomes in a system: all that is not in beams.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ScatteredLight {
-    /// q of transmitted light by emergent cell, a mean over each; empty if there is none. \[1/sr\]
+    /// Luminance coefficient q of transmitted light, as a mean over each emergent cell; empty if there is none.
+    /// \[1/sr\]
     pub transmitted: Vec<f64>,
-    /// q of reflected light by emergent cell, a mean over each; empty if there is none. \[1/sr\]
+    /// Luminance coefficient q of reflected light, as a mean over each emergent cell; empty if there is none. \[1/sr\]
     pub reflected: Vec<f64>,
-    /// Estimated absolute error of the scattered shares transmitted and reflected, the larger one.
+    /// Estimated absolute error of the scattered part of τ or of ρ, the larger one.
     pub error: f64,
 }

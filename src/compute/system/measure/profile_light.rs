@@ -1,17 +1,18 @@
-//! Scattered light that depends on the profile angle only, as matt faces endless along one direction emit it.
+//! Scattered light that depends on the profile angle only, e.g. that of matt faces which are endless along one axis.
 
 use crate::compute::basis::{RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// q of transmitted light by the profile angle of its through direction. \[1/sr\]
+/// Luminance coefficient q of scattered transmitted light as a function of the profile angle ψ of its direction of
+/// undeviated light.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileLight {
-    /// Whether the profile angle is measured to the right instead of upwards: faces endless along y.
+    /// Whether the profile angle is measured to the right (faces endless along y) instead of upwards (along x).
     pub upright: bool,
-    /// Values in bands of equal width about −90° … 90°, the first and the last band half as wide. \[1/sr\]
+    /// Values of q in bands of equal width over ψ from −90° to 90°, the first and the last band half as wide. \[1/sr\]
     pub q: Vec<f64>,
-    /// Estimated absolute error of the scattered share.
+    /// Estimated absolute error of the share of the incident light that is transmitted scattered.
     pub error: f64,
 }
 
@@ -26,7 +27,7 @@ impl ProfileLight {
         (0..=bands).map(move |k| ((k as f64 - 0.5) * step - FRAC_PI_2).clamp(-FRAC_PI_2, FRAC_PI_2))
     }
 
-    /// Returns the profile angle of a direction for these bands. \[rad\]
+    /// Returns the profile angle of a direction, measured as for these bands. \[rad\]
     pub fn angle(&self, name: Dir<Facade>) -> f64 {
         Self::angle_of(self.upright, name)
     }
@@ -47,7 +48,7 @@ impl ProfileLight {
         Self::band(self.angle(name), self.q.len()).min(self.q.len().saturating_sub(1))
     }
 
-    /// Returns q of a direction. \[1/sr\]
+    /// Returns q in the direction of undeviated light `name`. \[1/sr\]
     pub fn at(&self, name: Dir<Facade>) -> f64 {
         self.q.get(Self::band(self.angle(name), self.q.len())).copied().unwrap_or(0.0)
     }
@@ -71,12 +72,12 @@ impl ProfileLight {
         cells.cells().map(of).collect()
     }
 
-    /// Returns the share of the incident light.
+    /// Returns the share of the incident light that is transmitted scattered, 0 … 1.
     pub fn share(&self) -> f64 {
         Self::weights(self.q.len()).zip(&self.q).map(|(weight, q)| weight * q).sum()
     }
 
-    /// Returns the share of light that differs from `other`: Σ |q − q′| over the bands, weighted.
+    /// Returns the difference from `other` as a share of the incident light: Σ |q − q′| over the bands, weighted.
     pub fn difference(&self, other: &Self) -> f64 {
         let differences = self.q.iter().zip(&other.q).map(|(a, b)| (a - b).abs());
         Self::weights(self.q.len()).zip(differences).map(|(weight, difference)| weight * difference).sum()
@@ -89,7 +90,7 @@ impl ProfileLight {
         (0..bands).map(move |k| FRAC_PI_2 * (sines[k + 1] - sines[k]))
     }
 
-    /// Returns the means over cells, to about a tenth of a per cent of the largest. \[1/sr\]
+    /// Returns the mean of q over each of `cells`, accurate to about 0.1 % of the largest. \[1/sr\]
     pub fn on(&self, cells: &RingBasis) -> Vec<f64> {
         let mean = |cell| {
             let sum: f64 = sub_directions(&cell, POINTS).map(|d| self.at(d)).sum();

@@ -1,21 +1,22 @@
-//! Reciprocal data from computations from both sides.
+//! Reciprocal BSDF data from separate computations of light from both sides.
 //!
-//! Light from outside by direction i to inside by o, and its reverse, have the same q (Helmholtz); computed separately,
-//! both are estimates of it, whose mean is better than either. The sum of the means over all light of a cell is no
-//! longer exactly the computed one; a scaling of every cell, such that all sums are right again, corrects that.
+//! Light from direction i outside to direction o inside, and light on the reverse path, have the same q (Helmholtz
+//! reciprocity). If both are computed separately, their mean is a better estimate than either. With these means, τ + ρ
+//! of an incident cell is no longer exactly the computed value; a factor for every cell, such that all sums are right
+//! again, corrects that.
 
 use super::beams::mirror_images;
 use super::{Measured, Side};
 use crate::compute::scaling::by_newton;
 use std::f64::consts::PI;
 
-/// Tolerance of τ + ρ after scaling. Above the rounding of its sums over both sides (290 Klems cells · 2⁻⁵² ≈ 6e-14),
-/// below every allowed error.
+/// Tolerance of τ + ρ of a cell after the correction by factors. Above the rounding of its sums over both sides (290
+/// Klems cells · 2⁻⁵² ≈ 6e-14), below every allowed error.
 const LEFT: f64 = 1e-10;
 
 impl Measured {
-    /// Returns reciprocal data, with τ + ρ of every incident cell as computed. Returns the data unchanged where the
-    /// emergent cells are not the incident ones, or cannot be rotated by 180°.
+    /// Returns the data made reciprocal, with τ + ρ of every incident cell unchanged. Returns the data unchanged where
+    /// the emergent cells are not the incident ones, or cannot be rotated by 180°.
     pub(super) fn made_reciprocal(mut self) -> Self {
         let Some(turn) = mirror_images(&self.incident, |phi| phi + PI).filter(|_| self.incident == self.emergent)
         else {

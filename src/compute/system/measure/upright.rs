@@ -7,7 +7,8 @@ use crate::compute::estimate::{Cancelled, Progress};
 use glam::DVec3;
 use std::f64::consts::FRAC_PI_2;
 
-/// System rotated so that its upward direction points to the right as seen from outside.
+/// Optical model of a system rotated by 90° about its normal, so that its upward direction points to the right as seen
+/// from outside.
 pub struct Upright(pub Box<dyn OpticalModel>);
 
 impl OpticalModel for Upright {
@@ -68,13 +69,13 @@ fn turned(basis: &RingBasis) -> RingBasis {
     basis.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + FRAC_PI_2, ..azimuth })
 }
 
-/// Returns the direction at φ + 90°.
+/// Returns a direction of the rotated system in the axes of the described one: azimuth φ + 90°.
 fn to_described(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(-v.y, v.x, v.z))
 }
 
-/// Returns the direction at φ − 90°.
+/// Returns a direction of the described system in the axes of the rotated one: azimuth φ − 90°.
 fn from_described(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(v.y, -v.x, v.z))

@@ -7,47 +7,49 @@
 //! τ(θ) = τ(0) τ̂(cosθ),  ρ(θ) = ρ(0) (1 − ρ̂(cosθ)) + ρ̂(cosθ),  ρ̂ = s(cosθ) − τ̂(cosθ),
 //!
 //! τ̂ and s are polynomials of fourth degree. As printed they miss 1 at normal incidence by up to 0.5 %; here each is
-//! divided by its value there, so that the values of the data sheet are met exactly. Nothing is known of the
-//! polarisation: it is taken as kept, both alike.
+//! divided by its value there, so that the values of the data sheet are met exactly. Data sheets do not state the
+//! polarisation: both polarisations are assumed to have the same values and to be preserved.
 
 use super::glazing::{Pane, Share, behind};
 
-/// Coated pane, by its values at normal incidence.
+/// Coated pane, described by the values of its data sheet at normal incidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CoatedPane {
-    /// Transmittance at normal incidence.
+    /// Transmittance at normal incidence, 0 … 1.
     pub transmittance: f64,
-    /// Reflectance at normal incidence for light from outside.
+    /// Reflectance at normal incidence for light from outside, 0 … 1.
     pub front: f64,
-    /// Reflectance at normal incidence for light from inside.
+    /// Reflectance at normal incidence for light from inside, 0 … 1.
     pub back: f64,
 }
 
 /// Pane of a glazing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Layer {
-    /// Pane described by its material.
+    /// Uncoated pane described by its material and thickness.
     Clear(Pane),
-    /// Pane described by its data sheet.
+    /// Coated pane described by its data sheet.
     Coated(CoatedPane),
 }
 
-/// Coefficients of cos⁰ … cos⁴ of clear panes: transmittance, and the sum of transmittance and reflectance. Source:
-/// LBNL report LBL-33943 (WINDOW 4).
+/// Coefficients of cos⁰θ … cos⁴θ for clear panes: of the normalised transmittance τ̂, and of s, the sum of normalised
+/// transmittance and reflectance. Source: LBNL report LBL-33943 (WINDOW 4).
 const CLEAR: [[f64; 5]; 2] = [[-0.0015, 3.355, -3.840, 1.460, 0.0288], [0.999, -0.563, 2.043, -2.532, 1.054]];
-/// Coefficients of cos⁰ … cos⁴ of bronze panes, in the order of [`CLEAR`]. Source: report LBL-33943 (WINDOW 4).
+/// Coefficients of cos⁰θ … cos⁴θ for bronze panes, in the order of [`CLEAR`]. Source: report LBL-33943 (WINDOW 4).
 const BRONZE: [[f64; 5]; 2] = [[-0.002, 2.813, -2.341, -0.05725, 0.599], [0.997, -1.868, 6.513, -7.862, 3.225]];
-/// Transmittance at normal incidence up to which a pane follows the bronze one. Source: report LBL-33943 (WINDOW 4).
+/// Transmittance at normal incidence up to which a pane has the angle dependence of the bronze one. Source: report
+/// LBL-33943 (WINDOW 4).
 const BRONZE_UP_TO: f64 = 0.645;
 
-/// Returns a polynomial divided by its value at 1, limited to 0 … 1.
+/// Returns the polynomial of the given coefficients at `x` (the cosine of the angle), divided by its value at 1 and
+/// limited to 0 … 1.
 fn normalised(coefficients: &[f64; 5], x: f64) -> f64 {
     let at = |x: f64| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
     (at(x) / at(1.0)).clamp(0.0, 1.0)
 }
 
 impl CoatedPane {
-    /// Returns the shares at a polar angle. \[rad\]
+    /// Returns transmittance and reflectances of the pane at a polar angle of incidence. \[rad\]
     pub fn shares(&self, theta: f64) -> Share {
         let cos = theta.cos().clamp(0.0, 1.0);
         let [transmittance, sum] = if self.transmittance > BRONZE_UP_TO { &CLEAR } else { &BRONZE };
@@ -62,8 +64,8 @@ impl CoatedPane {
     }
 }
 
-/// Returns the shares of panes one behind the other (outside first) with air between, for unpolarised light at a polar
-/// angle. \[rad\] Each polarisation is followed through all of them.
+/// Returns transmittance and reflectances of panes one behind the other (outside first) with air between, for
+/// unpolarised light at a polar angle of incidence \[rad\]. Each polarisation is followed through all panes separately.
 pub fn stack(layers: &[Layer], theta: f64) -> Share {
     let open = Share { transmitted: 1.0, reflected_front: 0.0, reflected_back: 0.0 };
     let one = |polarisation: usize| {

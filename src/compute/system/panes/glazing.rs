@@ -3,30 +3,31 @@
 //! Each polarisation is followed through the whole stack and averaged at the end; averaging at every surface would lose
 //! 6.6 % of the transmittance of a double pane at 60°.
 
-/// Pane of a homogeneous material in air.
+/// Uncoated pane of a homogeneous material in air.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pane {
-    /// Refractive index, ≥ 1.
+    /// Refractive index of the material, ≥ 1.
     pub index: f64,
-    /// Thickness. \[m\]
+    /// Thickness of the pane. \[m\]
     pub thickness: f64,
-    /// Absorption coefficient. \[1/m\]
+    /// Absorption coefficient of the material. \[1/m\]
     pub absorption: f64,
 }
 
 /// Transmittance and reflectances of a pane or stack, for one polarisation or for their mean.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Share {
-    /// Share transmitted; the same from both sides.
+    /// Transmittance, 0 … 1; the same from both sides.
     pub transmitted: f64,
-    /// Share reflected of light from outside.
+    /// Reflectance for light from outside, 0 … 1.
     pub reflected_front: f64,
-    /// Share reflected of light from inside.
+    /// Reflectance for light from inside, 0 … 1.
     pub reflected_back: f64,
 }
 
 /// Returns the reflectance of one surface between air and `index` for both polarisations (perpendicular, parallel), and
-/// the cosine of the angle in the material. `theta` in the air. \[rad\] Fresnel's equations.
+/// the cosine of the angle of refraction in the material, by Fresnel's equations. `theta`: angle of incidence in air
+/// \[rad\].
 pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
     let cos = theta.cos().max(0.0);
     let inner = (1.0 - (theta.sin() / index).powi(2)).max(0.0).sqrt();
@@ -36,7 +37,8 @@ pub fn fresnel(index: f64, theta: f64) -> ([f64; 2], f64) {
 }
 
 impl Pane {
-    /// Returns the shares of one pane for both polarisations at a polar angle in air. \[rad\]
+    /// Returns transmittance and reflectances of one pane for both polarisations (perpendicular, parallel) at the angle
+    /// of incidence `theta` in air \[rad\].
     pub fn polarised(&self, theta: f64) -> [Share; 2] {
         let (surface, inner) = fresnel(self.index, theta);
         let passed = self.internal(inner);
@@ -51,13 +53,15 @@ impl Pane {
         })
     }
 
-    /// Returns the internal transmittance of one passage with the given cosine in the material (Bouguer–Lambert).
+    /// Returns the internal transmittance of one passage through the pane, for the given cosine of the angle in the
+    /// material (Bouguer–Lambert).
     pub fn internal(&self, inner_cos: f64) -> f64 {
         (-self.absorption * self.thickness / inner_cos).exp()
     }
 
-    /// Creates the pane whose transmittance at normal incidence is `tau`, by its absorption. `None` if `tau` is not
-    /// between 0 and what the two surfaces of a clear pane let through.
+    /// Creates the pane of the given refractive index and thickness \[m\] whose absorption gives it the transmittance
+    /// `tau` at normal incidence. `None` if `tau` is not above 0, or is above the transmittance of the pane without
+    /// absorption.
     pub fn with_normal_transmittance(index: f64, thickness: f64, tau: f64) -> Option<Self> {
         let ([r, _], _) = fresnel(index, 0.0);
         let clear = (1.0 - r) / (1.0 + r);
@@ -71,8 +75,8 @@ impl Pane {
     }
 }
 
-/// Returns the shares of a stack of panes (outside first) with air between them, at a polar angle in air, for
-/// unpolarised light. \[rad\]
+/// Returns transmittance and reflectances of a stack of panes (outside first) with air between them, for unpolarised
+/// light at the angle of incidence `theta` in air \[rad\].
 pub fn stack(panes: &[Pane], theta: f64) -> Share {
     let mut mean = Share { transmitted: 0.0, reflected_front: 0.0, reflected_back: 0.0 };
     for polarisation in 0..2 {
@@ -85,7 +89,8 @@ pub fn stack(panes: &[Pane], theta: f64) -> Share {
     mean
 }
 
-/// Adds a pane on the room side: the sum over all reflections between the two (Stokes).
+/// Returns transmittance and reflectances of two panes or stacks, `inner` on the room side of `outer`: the sum over all
+/// reflections between them (Stokes).
 pub fn behind(outer: Share, inner: Share) -> Share {
     let between = 1.0 - outer.reflected_back * inner.reflected_front;
     if between < 1e-12 {

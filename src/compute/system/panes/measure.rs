@@ -1,7 +1,8 @@
-//! Optical model of panes: every direction keeps its through direction, and transmittance depends on the polar angle
+//! Optical model of panes: light is transmitted undeviated or mirrored, and transmittance depends on the polar angle
 //! only.
 //!
-//! Cells of rings overlap in a rectangle of θ and φ, so that the means are one-dimensional integrals.
+//! An incident and an emergent cell overlap in a rectangle of θ and φ, so that means over cells are one-dimensional
+//! integrals.
 
 use super::coated::{Layer, stack};
 use super::glazing::Share;
@@ -15,34 +16,36 @@ use crate::compute::system::measure::{
 };
 use std::f64::consts::PI;
 
-/// Panes one behind the other, outside first, air between.
+/// Optical model of panes one behind the other with air between.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panes {
-    /// Panes, outside first.
+    /// Panes in their order from outside to inside.
     pub layers: Vec<Layer>,
 }
 
 /// Orders of the quadrature over θ: for the values, and for the estimate of their error. Gauss–Legendre rules of n
 /// points integrate polynomials of degree 2n − 1 exactly; uncoated panes are smooth enough for both to agree to 1e-14.
 const ORDERS: [usize; 2] = [64, 40];
-/// Number of steps of the tables over θ: half a degree each. Chosen: cost; the cubics between them give uncoated panes
-/// to 2e-6 up to 85°, to 1e-3 within the last half degree, which receives 8e-5 of uniform light.
+/// Number of steps of the tables of transmittance and reflectance over θ: half a degree each. Chosen: cost; the cubics
+/// between them give uncoated panes to 2e-6 up to 85°, to 1e-3 within the last half degree, which receives 8e-5 of
+/// uniform light.
 const STEPS: usize = 180;
 
 impl Panes {
-    /// Creates a glazing of `n` equal panes.
+    /// Creates the optical model of a glazing of `n` equal panes.
     pub fn equal(layer: Layer, n: usize) -> Self {
         Self { layers: vec![layer; n] }
     }
 
-    /// Returns the shares for unpolarised light at a polar angle. \[rad\]
+    /// Returns transmittance and reflectances of the glazing for unpolarised light at a polar angle of incidence.
+    /// \[rad\]
     pub fn shares(&self, theta: f64) -> Share {
         stack(&self.layers, theta)
     }
 }
 
 impl OpticalModel for Panes {
-    /// Returns `true`: undeviated and mirrored light keep the through direction.
+    /// Returns `true`, since all light is undeviated or mirrored.
     fn separates_regular(&self) -> bool {
         true
     }
@@ -57,11 +60,12 @@ impl OpticalModel for Panes {
         Structure::Even
     }
 
-    /// Returns no light: panes are clear.
+    /// Returns no scattered light, since panes are clear.
     fn scattered(&self, _: Dir<Facade>, _: Side, _: &RingBasis) -> ScatteredLight {
         ScatteredLight::default()
     }
 
+    /// Returns the band with regular transmission and reflection as tables over the polar angle.
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let quality = self.measure(setting, progress)?.quality();
         let table = |part: fn(&Share) -> f64| {
@@ -77,6 +81,7 @@ impl OpticalModel for Panes {
         Ok((band, quality))
     }
 
+    /// Computes patch-averaged data: light of an incident cell reaches the emergent cells that overlap it.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let rules = ORDERS.map(gauss_legendre);
@@ -126,7 +131,7 @@ impl OpticalModel for Panes {
     }
 }
 
-/// Returns the width of the azimuths that two cells share. \[rad\]
+/// Returns the width of the range of azimuths that two cells have in common. \[rad\]
 fn overlap(a: &Cell, b: &Cell) -> f64 {
     let separation = (a.phi - b.phi + PI).rem_euclid(2.0 * PI) - PI;
     [-2.0 * PI, 0.0, 2.0 * PI]
@@ -140,7 +145,7 @@ fn overlap(a: &Cell, b: &Cell) -> f64 {
         .sum()
 }
 
-/// Cached integrals over ranges of θ; rings ask for the same ones again and again.
+/// Cache of integrals over ranges of θ, of which rings of cells need the same ones repeatedly.
 struct Known<'a> {
     panes: &'a Panes,
     rules: [Vec<(f64, f64)>; 2],
@@ -148,7 +153,8 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// Returns ∫ share · sinθ cosθ dθ by both orders, and ∫ sinθ cosθ dθ.
+    /// Returns ∫ share(θ) sinθ cosθ dθ between two polar angles \[rad\] for transmittance and reflectances, by both
+    /// orders of [`ORDERS`], and ∫ sinθ cosθ dθ.
     fn integral(&mut self, from: f64, to: f64) -> ([Share; 2], f64) {
         let weight = 0.5 * (to - from).sin() * (to + from).sin();
         if let Some((_, found)) = self.values.iter().find(|(range, _)| *range == [from, to]) {

@@ -1,21 +1,21 @@
-//! Glazing as described: equal panes one behind the other.
+//! Family of glazings that are described as equal panes one behind the other.
 
 use super::coated::Layer;
 use super::measure::Panes;
 use crate::compute::system::family::{Family, OpticalModelError, PIECE, Polygons, rectangle};
 use crate::compute::system::measure::OpticalModel;
 
-/// Equal panes with air between; interference left out.
+/// Glazing of equal panes with air between, without interference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaneStack {
-    /// Pane of the stack.
+    /// Pane, the same for all positions.
     pub pane: Layer,
     /// Number of panes.
     pub panes: usize,
 }
 
 impl PaneStack {
-    /// Returns the panes one by one.
+    /// Returns the panes as a list, from outside to inside.
     pub fn layers(&self) -> Vec<Layer> {
         vec![self.pane; self.panes]
     }
@@ -30,11 +30,11 @@ impl Family for PaneStack {
         "Fresnel and Bouguer-Lambert through the stack, coated panes by the angular fits of WINDOW 4, no interference"
     }
 
-    /// Returns a piece of every pane, the panes of a data sheet 4 mm thick, 16 mm between them; the outermost face at
-    /// depth 0.
+    /// Returns the section of a piece of every pane, with the outermost face at depth 0. Panes described by a data
+    /// sheet are drawn 4 mm thick, and gaps 16 mm wide.
     fn drawing(&self, _: &str) -> Polygons {
-        /// Distance between panes as drawn, usual for insulating glass; the description has none. \[m\] Chosen: affects
-        /// drawings only, no figure.
+        /// Distance between panes in drawings, usual for insulating glass; descriptions do not state it. \[m\] Chosen:
+        /// affects drawings only, no figure.
         const GAP: f64 = 0.016;
         let thickness = match self.pane {
             Layer::Clear(pane) if pane.thickness > 0.0 => pane.thickness,

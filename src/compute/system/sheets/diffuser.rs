@@ -1,8 +1,10 @@
-//! Diffusers: opal volumes behind smooth surfaces, and sheets that spread light in a lobe about its direction.
+//! Diffusers: Lambertian sheets, opal volumes between smooth surfaces, and sheets that spread light in a lobe about its
+//! undeviated direction.
 //!
 //! Reciprocity forbids a Lambertian emission whose transmittance depends on incidence. An opal sheet with smooth
-//! surfaces lets light in and out through the same kind of surface, so that
-//! q = t F(θ_e) F(θ_a) / (π F̄), F the share that one surface lets through and F̄ its hemispherical mean.
+//! surfaces lets light in and out through the same kind of surface, so that q = t F(θ_e) F(θ_a) / (π F̄), F the
+//! transmittance of one surface at the angles of incidence and emergence, F̄ its hemispherical mean, and t the share
+//! that the volume transmits of the light that has entered it.
 
 use super::lobe::Lobe;
 use super::sheet::{Sheet, Spread};
@@ -11,24 +13,24 @@ use crate::compute::system::family::{Family, OpticalModelError, PIECE, Polygons,
 use crate::compute::system::measure::OpticalModel;
 use crate::compute::system::panes::glazing::{self, fresnel};
 
-/// Sheet that scatters light.
+/// Diffuser: sheet that scatters light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Diffuser {
-    /// Lambertian sheet: the same luminance in all directions, whatever the incidence.
+    /// Lambertian sheet: the same luminance in all directions, for every incident direction.
     Lambertian {
-        /// Transmittance, for every incidence.
+        /// Transmittance for every incident direction, 0 … 1.
         transmittance: f64,
-        /// Reflectance, for every incidence.
+        /// Reflectance for every incident direction, 0 … 1.
         reflectance: f64,
     },
-    /// Scattering volume between two smooth surfaces.
+    /// Opal sheet: scattering volume between two smooth surfaces.
     Opal(Opal),
-    /// Sheet that transmits one share undeviated, one in a lobe and one diffusely.
+    /// Sheet that transmits one part of the light undeviated, one in a lobe and one diffusely.
     Spreading(Spreading),
 }
 
 impl Diffuser {
-    /// Creates the sheet; `None` for values that no passive sheet has.
+    /// Creates the sheet with its distributions of light; `None` for values that no passive sheet can have.
     fn sheet(&self) -> Option<Sheet> {
         match self {
             Self::Lambertian { transmittance, reflectance } => Some(Sheet {
@@ -51,7 +53,8 @@ impl Family for Diffuser {
     }
 
     fn drawing(&self, _: &str) -> Polygons {
-        /// Thickness as drawn; the description has none. \[m\] Chosen: affects drawings only, no figure.
+        /// Thickness of the sheet in drawings; descriptions do not state it. \[m\] Chosen: affects drawings only, no
+        /// figure.
         const SHEET: f64 = 0.004;
         vec![rectangle([-SHEET, 0.0], [0.0, PIECE])]
     }
@@ -66,48 +69,53 @@ impl Family for Diffuser {
     }
 }
 
-/// Scattering volume between two smooth surfaces, the same from both sides.
+/// Opal sheet, the same from both sides: a scattering volume between two smooth surfaces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Opal {
     /// Refractive index of the surfaces.
     pub index: f64,
     /// Direct-hemispherical transmittance at normal incidence.
     pub transmittance: f64,
-    /// Diffuse reflectance at normal incidence, without the mirror image of the surface.
+    /// Diffuse reflectance at normal incidence, without the specular reflection of the surface.
     pub reflectance: f64,
 }
 
-/// Sheet that transmits one share undeviated, one in a lobe and one diffusely, the same from both sides.
+/// Sheet, the same from both sides, that transmits one part of the light undeviated, one in a lobe about that direction
+/// and one diffusely.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spreading {
     /// Refractive index of the sheet.
     pub index: f64,
-    /// Share of the transmitted light that keeps its direction.
+    /// Share of the transmitted light that is undeviated, 0 … 1.
     pub regular: f64,
-    /// Share of the transmitted light that leaves in a lobe about the regular direction; the rest leaves diffusely.
+    /// Share of the transmitted light that leaves in a lobe about the undeviated direction, 0 … 1; the rest leaves
+    /// diffusely.
     pub lobe: f64,
     /// Standard deviation of the lobe along either direction cosine (near the normal: the angle). \[rad\]
     pub spread: f64,
-    /// Transmittance at normal incidence; τ(θ) follows the clear sheet of the index.
+    /// Direct-hemispherical transmittance at normal incidence; at other angles it is proportional to that of a clear
+    /// sheet with the same refractive index.
     pub transmittance: f64,
-    /// Absorbed share of the light that is not transmitted; the rest is reflected diffusely or mirrored.
+    /// Share that is absorbed of the light that is not transmitted, 0 … 1; the rest is reflected, diffusely or
+    /// specularly.
     pub absorbed: f64,
 }
 
-/// Returns the share of unpolarised light that one surface lets through.
+/// Returns the transmittance of one surface between air and a material for unpolarised light at the angle of incidence
+/// `theta`. \[rad\]
 fn surface_transmittance(index: f64, theta: f64) -> f64 {
     let ([s, p], _) = fresnel(index, theta);
     1.0 - 0.5 * (s + p)
 }
 
-/// Returns a table of a function of θ in steps of half a degree.
+/// Returns a table of a function of the polar angle θ \[rad\] in steps of half a degree.
 fn table(f: impl Fn(f64) -> f64) -> AngularTransmittance {
     AngularTransmittance::sample(180, f)
 }
 
 impl Opal {
-    /// Returns the shares of the light that has entered: transmitted, and reflected by the volume. `None` if the
-    /// parameters are not those of a passive sheet.
+    /// Returns the shares of the light that has entered the volume: transmitted, and reflected by the volume. `None`
+    /// for values that no passive sheet can have.
     pub fn shares(&self) -> Option<(f64, f64)> {
         let enters = surface_transmittance(self.index, 0.0);
         let (passed, returned) = (self.transmittance / enters, self.reflectance / enters);
@@ -115,7 +123,7 @@ impl Opal {
         sane.then_some((passed, returned))
     }
 
-    /// Creates the sheet; `None` if the parameters are not those of a passive one.
+    /// Creates the sheet with its distributions of light; `None` for values that no passive sheet can have.
     pub fn sheet(&self) -> Option<Sheet> {
         let (passed, returned) = self.shares()?;
         let enters = |share: f64| table(|theta| share * surface_transmittance(self.index, theta));
@@ -130,14 +138,15 @@ impl Opal {
 }
 
 impl Spreading {
-    /// Returns the transmittance of the clear sheet of the index at a polar angle. \[rad\]
+    /// Returns the transmittance of a clear, non-absorbing sheet with the same refractive index at the angle of
+    /// incidence `theta`. \[rad\]
     pub fn clear(&self, theta: f64) -> f64 {
         let pane = glazing::Pane { index: self.index, thickness: 0.0, absorption: 0.0 };
         glazing::stack(&[pane], theta).transmitted
     }
 
-    /// Returns the ratio of the transmittance to that of the clear sheet. `None` if the parameters are not those of a
-    /// passive sheet.
+    /// Returns the ratio of the sheet's transmittance to that of a clear sheet with the same refractive index, for all
+    /// angles. `None` for values that no passive sheet can have.
     pub fn scale(&self) -> Option<f64> {
         let scale = self.transmittance / self.clear(0.0);
         let shares = [self.regular, self.lobe, 1.0 - self.regular - self.lobe, self.absorbed];
@@ -145,7 +154,7 @@ impl Spreading {
         (sane && self.index >= 1.0 && self.spread > 0.01).then_some(scale)
     }
 
-    /// Creates the sheet; `None` if the parameters are not those of a passive one.
+    /// Creates the sheet with its distributions of light; `None` for values that no passive sheet can have.
     pub fn sheet(&self) -> Option<Sheet> {
         let haze = (1.0 - self.regular - self.lobe).max(0.0);
         let scale = self.scale()?;
@@ -166,7 +175,7 @@ impl Spreading {
     }
 }
 
-/// Returns the band of an ideal diffuser, Lambertian in transmission and reflection for every incidence.
+/// Returns the BSDF data of an ideal diffuser, Lambertian in transmission and reflection for every incident direction.
 pub fn lambertian(transmittance: f64, reflectance: f64) -> Band {
     Band {
         transmission_front: Some(Btdf::ideal_diffuse(transmittance)),

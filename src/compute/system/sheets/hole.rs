@@ -1,33 +1,33 @@
-//! Sheets with holes as described, and their exact undeviated share for one direction: the overlap of the two ends of a
-//! hole as seen along the light, in closed form.
+//! Description of perforated sheets, and the exact share of light of one direction that passes undeviated: the overlap
+//! of the two ends of a hole as seen along the light, in closed form.
 
 use crate::compute::direction::{Dir, Facade};
 
-/// Pattern and shape of holes.
+/// Shape and size of the holes of a perforated sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Hole {
     /// Round hole, given by its diameter. \[m\]
     Round {
-        /// Diameter. \[m\]
+        /// Diameter of the hole. \[m\]
         diameter: f64,
     },
     /// Rectangular hole, given by width and height. \[m\]
     Rectangle {
-        /// Width along x. \[m\]
+        /// Width of the hole along x (horizontal). \[m\]
         width: f64,
-        /// Height along y. \[m\]
+        /// Height of the hole along y (vertical). \[m\]
         height: f64,
     },
     /// Rhombic hole with horizontal and vertical diagonals, as in expanded metal. \[m\]
     Rhombus {
-        /// Horizontal diagonal. \[m\]
+        /// Horizontal diagonal of the hole. \[m\]
         width: f64,
-        /// Vertical diagonal. \[m\]
+        /// Vertical diagonal of the hole. \[m\]
         height: f64,
     },
 }
 
-/// Opaque Lambertian sheet with equal holes; their walls may run obliquely upwards.
+/// Perforated sheet: opaque Lambertian sheet with equal holes, whose walls may rise obliquely towards the room.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Perforated {
     /// Shape and size of the holes.
@@ -36,9 +36,10 @@ pub struct Perforated {
     pub area: f64,
     /// Thickness of the sheet. \[m\]
     pub thickness: f64,
-    /// Rise of the hole towards the room side, > 0 = its walls rise inwards (strands of expanded metal). \[m\]
+    /// Height by which the room-side end of a hole lies above its outer end, > 0 for walls that rise inwards (strands
+    /// of expanded metal). \[m\]
     pub rise: f64,
-    /// Diffuse reflectance of the outer face, the inner face and the walls.
+    /// Diffuse reflectances of the outer face, the inner face and the walls of the holes, in this order.
     pub reflectance: [f64; 3],
 }
 
@@ -48,7 +49,7 @@ impl Hole {
         self.overlap([0.0, 0.0])
     }
 
-    /// Returns the area that the hole has in common with itself moved by (x, y). \[m²\]
+    /// Returns the area that the hole has in common with its copy displaced by (`x`, `y`) \[m\]. \[m²\]
     pub fn overlap(&self, [x, y]: [f64; 2]) -> f64 {
         match *self {
             Self::Round { diameter } => {
@@ -72,8 +73,8 @@ impl Hole {
 }
 
 impl Perforated {
-    /// Returns the height of a hole and the distance from one to the next above it. \[m\] The description gives only
-    /// the area per hole: a square of it is assumed, or more where the holes would touch.
+    /// Returns the height of a hole and the vertical distance from one hole to the next. \[m\] The description gives
+    /// only the area per hole: a square of it is assumed, or more where the holes would touch.
     pub(super) fn pattern(&self) -> [f64; 2] {
         let height = match self.hole {
             Hole::Round { diameter } => diameter,
@@ -82,12 +83,13 @@ impl Perforated {
         [height, self.area.sqrt().max(1.1 * height)]
     }
 
-    /// Returns the open share of the sheet.
+    /// Returns the open share of the sheet's area, 0 … 1.
     pub fn open(&self) -> f64 {
         self.hole.area() / self.area
     }
 
-    /// Returns the share of light of a direction that passes undeviated; the same from both sides.
+    /// Returns the share of light with the direction of undeviated light `name` that passes undeviated, 0 … 1; the same
+    /// from both sides.
     pub fn straight(&self, name: Dir<Facade>) -> f64 {
         let v = name.vector();
         if v.z <= 0.0 {

@@ -1,4 +1,5 @@
-//! Optical model of perforated sheets. For single directions the walls of the hole are solved once and cached.
+//! Optical model of perforated sheets. For single directions, interreflection between the walls of the hole is solved
+//! once and cached.
 
 use super::hole::Perforated;
 use super::walls::{Lit, Walls, measure_walls};
@@ -11,33 +12,36 @@ use crate::compute::system::measure::{Beam, Measured, OpticalModel, ScatteredLig
 use faer::Mat;
 use std::f64::consts::PI;
 
-/// Numbers of patches through the thickness for single directions; the difference between the two gives the error.
-/// Chosen: cost; results change within their stated error. Held below 0.01 by the test
-/// `single_directions_have_the_mean_that_is_measured_and_lose_nothing`.
+/// Numbers of patches of the walls through the sheet's thickness, coarse and fine, for single directions; the
+/// difference between the two gives the error. Chosen: cost; results change within their stated error. Held below 0.01
+/// by the test `single_directions_have_the_mean_that_is_measured_and_lose_nothing`.
 const DEPTH: [usize; 2] = [4, 8];
 
-/// Perforated sheet with cached results on its walls.
+/// Optical model of a perforated sheet, with cached results for the walls of its holes.
 pub(super) struct Holes {
     sheet: Perforated,
     walls: Once<[Solved; 2]>,
     seen: Kept<Seen>,
 }
 
-/// Walls of a hole with all light between them.
+/// Walls of a hole with their solved interreflection.
 struct Solved {
     walls: Walls,
-    /// Light that reaches a patch in the end per light that each patch receives first.
+    /// Flux that each patch (row) receives after all interreflections, per flux that each patch (column) receives
+    /// first.
     response: Mat<f64>,
 }
 
-/// Views of the walls from emergent cells, each computed when light first takes it.
+/// Light on the walls for light from each cell of a basis, computed when it is first needed.
 #[derive(Default)]
 struct Seen {
-    /// Views by depth, then by kind (transmitted, reflected), then by side.
+    /// Light on the walls, indexed by division of the thickness (of [`DEPTH`]), then by kind of the leaving light
+    /// (transmitted, reflected), then by side.
     ways: [[[Once<Lit>; 2]; 2]; 2],
 }
 
-/// Light that does not pass undeviated.
+/// Light that the sheet scatters: q of transmitted and reflected light by emergent cell \[1/sr\], and the absorbed
+/// share.
 struct Rest {
     transmitted: Vec<f64>,
     reflected: Vec<f64>,
@@ -45,6 +49,7 @@ struct Rest {
 }
 
 impl Holes {
+    /// Creates the optical model of a perforated sheet with empty caches.
     pub fn new(sheet: Perforated) -> Self {
         Self { sheet, walls: Once::default(), seen: Kept::default() }
     }
@@ -61,7 +66,8 @@ impl Holes {
         })
     }
 
-    /// Computes the light of one direction that meets the sheet or the walls, these at one of the two depths.
+    /// Computes the scattered light of one direction, by its reflections at the faces of the sheet and at the walls of
+    /// the holes; `depth`: index in [`DEPTH`] of the walls' division.
     fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, cells: &RingBasis, seen: &Seen) -> Rest {
         let Solved { walls, response } = &self.solved()[depth];
         let n = walls.len();
@@ -90,7 +96,7 @@ impl Holes {
     }
 }
 
-/// Returns the product of a matrix and a vector, column by column, since columns are contiguous.
+/// Returns the product of a matrix and a vector, summed column by column, since columns are contiguous in memory.
 fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
@@ -109,6 +115,8 @@ impl OpticalModel for Holes {
         if share > 0.0 { vec![Beam::through(name, share)] } else { vec![] }
     }
 
+    /// Computes the scattered light with the fine division of the walls; the error is its difference from the coarse
+    /// one plus the missing energy.
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         let face = self.sheet.reflectance[usize::from(side == Side::Back)] * (1.0 - self.sheet.open());
         if self.sheet.reflectance[2] == 0.0 {

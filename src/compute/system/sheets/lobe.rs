@@ -8,20 +8,22 @@ use crate::compute::scaling::by_rounds;
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-/// Light in a lobe about the regular direction.
+/// Lobe of light about the undeviated or mirrored direction: a reciprocal Gaussian kernel in direction cosines.
 #[derive(Debug, Clone)]
 pub struct Lobe {
     share: AngularTransmittance,
     spread: f64,
-    /// Factor d over equal steps of sinθ, at their middles; computed when it is first needed.
+    /// Factor d(θ) of the kernel (see [`super::sheet`]) at the middles of equal steps of sinθ; computed when it is
+    /// first needed.
     factor: OnceLock<Vec<f64>>,
 }
 
-/// Point of the lobe: direction cosines, and the factor d.
+/// Direction for the lobe's kernel: direction cosines (x, y), and the factor d there.
 type Point = ([f64; 2], f64);
 
-/// Distance of points in a cell where both ends are averaged, in standard deviations of the lobe. Chosen; held to 0.015
-/// of the light by the test `single_directions_have_their_shares_and_the_measured_mean` of `sheet`.
+/// Distance of points in a cell where the kernel is averaged over incident and emergent directions, in standard
+/// deviations of the lobe. Chosen; held to 0.015 of the light by the test
+/// `single_directions_have_their_shares_and_the_measured_mean` of `sheet`.
 const STEP: f64 = 0.8;
 /// Maximum number of points along either side of a cell, and of Gauss' nodes. Chosen: cost; on Klems cells, 0.52 wide
 /// at most, the first limits lobes narrower than 0.52/(24 · 0.8) = 0.027, and the second no lobe that is allowed (above
@@ -36,12 +38,13 @@ const NODES: (f64, f64) = (2.0, 1.2);
 const MOST_EXPONENT: f64 = 30.0;
 
 impl Lobe {
-    /// Creates a lobe from its share of the light and its standard deviation along either direction cosine.
+    /// Creates a lobe from its share of the incident light as a function of the polar angle, and its standard deviation
+    /// along either direction cosine.
     pub const fn new(share: AngularTransmittance, spread: f64) -> Self {
         Self { share, spread, factor: OnceLock::new() }
     }
 
-    /// Returns the lobe's share of the light by incidence.
+    /// Returns the lobe's share of the incident light as a function of the polar angle of incidence.
     pub const fn share(&self) -> &AngularTransmittance {
         &self.share
     }
@@ -50,6 +53,7 @@ impl Lobe {
         self.factor.get_or_init(|| self.balanced())
     }
 
+    /// Computes the factor d(θ) such that the lobe carries the given share for every incidence (Sinkhorn's iteration).
     fn balanced(&self) -> Vec<f64> {
         let spread = self.spread;
         // One thread only: the threads that need it run side by side and would wait for each other.
@@ -79,21 +83,21 @@ impl Lobe {
         (factor[k] * (1.0 - t) + factor[k + 1] * t).max(0.0)
     }
 
-    /// Returns the point of a direction.
+    /// Returns the direction cosines of a direction, and the kernel's factor d there.
     pub fn point(&self, d: Dir<Facade>) -> Point {
         let k = d.vector().truncate();
         ([k.x, k.y], self.factor(k.length()))
     }
 
-    /// Returns points distributed uniformly over the cell, dense enough for the lobe.
+    /// Returns directions distributed uniformly over a cell, dense enough for the width of the lobe.
     pub fn points(&self, cell: &Cell) -> Vec<Point> {
         let [high, wide] = sides(cell);
         let n = ((high.max(wide) / (STEP * self.spread)).ceil() as usize).clamp(1, MOST[0]);
         sub_directions(cell, n).map(|d| self.point(d)).collect()
     }
 
-    /// Returns the mean of the lobe over an emergent cell for light from one direction. By Gauss' nodes in sin²θ and φ,
-    /// because the cell's edge may cut the lobe where it is steepest.
+    /// Returns the mean q of the lobe over the emergent cell `to` for light with the direction of undeviated light
+    /// `name`. \[1/sr\] By Gauss' nodes in sin²θ and φ, because the cell's edge may cut the lobe where it is steepest.
     pub fn mean_about(&self, name: Dir<Facade>, to: &Cell) -> f64 {
         let ([x, y], d) = self.point(name);
         let [high, wide] = sides(to);
@@ -126,7 +130,8 @@ impl Lobe {
         d * rows.iter().map(ring).sum::<f64>()
     }
 
-    /// Returns the mean of the lobe over an emergent cell for light from the given points.
+    /// Returns the mean q of the lobe over the emergent cell `to`, averaged over the incident directions `from`.
+    /// \[1/sr\]
     pub fn mean(&self, from: &[Point], to: &Cell) -> f64 {
         let exponent = |a: [f64; 2], b: [f64; 2]| {
             0.5 * ((a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2)) / (self.spread * self.spread)
@@ -156,18 +161,18 @@ impl Lobe {
     }
 }
 
-/// Returns the size of a cell in direction cosines: across its ring, and around.
+/// Returns the size of a cell in direction cosines: across its ring, and along it.
 fn sides(cell: &Cell) -> [f64; 2] {
     [cell.theta_max.sin() - cell.theta_min.sin(), cell.width * cell.theta_max.sin()]
 }
 
-/// Returns the nodes of [`gauss_legendre`], each order computed once.
+/// Returns nodes and weights of the Gauss–Legendre rule of an order, computed once per order.
 fn gauss_nodes(order: usize) -> &'static [(f64, f64)] {
     static RULES: [OnceLock<Vec<(f64, f64)>>; MOST[1] + 1] = [const { OnceLock::new() }; MOST[1] + 1];
     RULES[order].get_or_init(|| gauss_legendre(order))
 }
 
-/// Returns e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
+/// Returns the scaled modified Bessel function e⁻ˣ I₀(x), x ≥ 0, to 2e-7 (Abramowitz and Stegun 9.8.1 and 9.8.2).
 fn scaled_bessel(x: f64) -> f64 {
     let polynomial = |c: &[f64], t: f64| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
     if x < 3.75 {

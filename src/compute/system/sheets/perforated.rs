@@ -1,4 +1,4 @@
-//! Family of perforated and expanded metal and grids of webs.
+//! Family of perforated sheets: perforated and expanded metal, grids of webs.
 
 use super::hole::Perforated;
 use super::holes::Holes;
@@ -18,7 +18,7 @@ impl Family for Perforated {
         Some(self.area.sqrt())
     }
 
-    /// Returns the sheet between two holes, cut through the middle of both.
+    /// Returns the section of the sheet between two holes, through the middle of both.
     fn drawing(&self, _: &str) -> Polygons {
         let [height, pitch] = self.pattern();
         let (low, high) = (0.5 * height, pitch - 0.5 * height);

@@ -1,10 +1,11 @@
-//! Plane sheets without a preferred direction: transmission and reflection depend on θ_e, θ_a and the azimuth between
-//! the two. Mirrored and undeviated light, diffuse light, and a lobe about the undeviated direction.
+//! Plane sheets without a preferred direction: transmission and reflection depend on the polar angles θ_e (incident)
+//! and θ_a (emergent) and the azimuth between the two. Mirrored and undeviated light, diffuse light, and a lobe about
+//! the undeviated direction.
 //!
 //! Diffuse light is separable, q = τ(θ_e) τ(θ_a)/(π τ̄), the one reciprocal form whose total is τ(θ_e). The lobe is a
 //! Gaussian in direction cosines k, q = d(θ_e) exp(−|k_e − k_a|²/2σ²) d(θ_a): every plane-parallel layer shifts
-//! direction cosines, so that the kernel is symmetric in both directions; d is found such that the total is the τ(θ_e)
-//! asked for (Sinkhorn's iteration in its symmetric form).
+//! direction cosines, so that the kernel is symmetric in both directions; d is found such that the total is the given
+//! τ(θ_e) (Sinkhorn's iteration in its symmetric form).
 
 use super::lobe::Lobe;
 use crate::compute::basis::{Cell, Ring, RingBasis};
@@ -17,28 +18,30 @@ use crate::compute::system::measure::{Beam, Measured, OpticalModel, Quality, Sca
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Distribution of the light of one incident direction over regular, diffuse and lobe parts.
+/// Distribution of transmitted (or reflected) light over regular, diffuse and lobe parts, as a function of the polar
+/// angle of incidence.
 #[derive(Debug, Clone)]
 pub struct Spread {
-    /// Regular share: undeviated, or mirrored.
+    /// Regular share of the incident light, undeviated or mirrored, by polar angle of incidence.
     pub regular: AngularTransmittance,
-    /// Diffuse share, separable.
+    /// Diffuse share of the incident light, by polar angle of incidence; its q is separable, see the module head.
     pub diffuse: AngularTransmittance,
-    /// Lobe about the regular direction.
+    /// Lobe about the undeviated or mirrored direction, if there is one.
     pub lobe: Option<Lobe>,
 }
 
-/// Sheet whose transmission is the same from both sides, while its reflection may differ.
+/// Optical model of a plane sheet. Its transmission is the same from both sides, its reflection may differ.
 #[derive(Debug, Clone)]
 pub struct Sheet {
-    /// Distribution of transmitted light.
+    /// Distribution of transmitted light, for light from either side.
     pub transmission: Spread,
     /// Distribution of reflected light, for light from outside and from inside.
     pub reflection: [Spread; 2],
 }
 
 impl Spread {
-    /// Creates a distribution of diffuse light only, the same share for every incidence.
+    /// Creates a distribution of Lambertian light only, with the same share of the incident light for every incident
+    /// direction.
     pub const fn lambertian(share: f64) -> Self {
         Self {
             regular: AngularTransmittance::Constant(0.0),
@@ -63,6 +66,8 @@ impl OpticalModel for Sheet {
         Ok(measured)
     }
 
+    /// Computes the band with regular light stored separately as tables over the polar angle, and all other light on
+    /// the cells.
     fn examine(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Band, Quality), Cancelled> {
         let quality = self.measure(setting, progress)?.quality();
         let separate = |spread: &Spread| -> Result<Btdf, Cancelled> {
@@ -88,7 +93,7 @@ impl OpticalModel for Sheet {
         Ok((band, quality))
     }
 
-    /// Returns `true`: undeviated and mirrored light keep the through direction.
+    /// Returns `true`: undeviated and mirrored light are stored separately, by the polar angle.
     fn separates_regular(&self) -> bool {
         true
     }
@@ -111,7 +116,7 @@ impl OpticalModel for Sheet {
 }
 
 impl Sheet {
-    /// Returns the reflection of light from a side.
+    /// Returns the distribution of reflected light for light from `side`.
     const fn reflection(&self, side: Side) -> &Spread {
         match side {
             Side::Front => &self.reflection[0],
@@ -119,21 +124,24 @@ impl Sheet {
         }
     }
 
-    /// Computes the scattered transmitted light, with the given diffuse share.
+    /// Computes the scattered transmitted light on emergent cells for light with the direction of undeviated light
+    /// `name`; `diffuse`: diffuse share of the incident light, instead of that of the tables.
     pub fn transmitted_with(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
         let transmitted = self.transmission.of(name, emergent, diffuse);
         ScatteredLight { transmitted, error: TOTALS, ..ScatteredLight::default() }
     }
 
-    /// Computes q of the reflected light by emergent cell. \[1/sr\]
+    /// Computes q of the scattered reflected light, as means over the emergent cells, for light from `side` with the
+    /// direction of undeviated light `name`. \[1/sr\]
     pub fn reflected(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> Vec<f64> {
         let back = self.reflection(side);
         back.of(name, emergent, back.diffuse.at(name.theta()))
     }
 }
 
-/// Error of the totals of single directions: they are scaled to the tables, which reproduce their source to this error.
-/// Chosen: above the largest error of the cubics between half degrees, 1.2e-5 for a surface of index 1.49 (at 89.8°).
+/// Stated error of τ and ρ for single directions: they are scaled to the tables over θ, which reproduce their source to
+/// this error. Chosen: above the largest error of the cubics between half degrees, 1.2e-5 for a surface of index 1.49
+/// (at 89.8°).
 const TOTALS: f64 = 1e-4;
 
 /// Number of angles across a ring over which functions of θ are averaged. Chosen: cost; midpoints in sin²θ give the
@@ -143,20 +151,20 @@ const RING: usize = 128;
 /// Chosen: cost; Gauss' nodes in sin²θ give the transmittance of a surface to 3e-4 on the outermost Klems ring.
 const NARROW: usize = 8;
 
-/// Returns the means over the cells of a function of θ; `rule`: nodes and weights across every ring.
+/// Returns the mean of a function of θ over each cell; `rule`: nodes and weights across every ring.
 fn ring_means(basis: &RingBasis, share: &AngularTransmittance, rule: &[(f64, f64)]) -> Vec<f64> {
     let mean = |ring: &Ring| std::iter::repeat_n(share.ring_mean(ring.theta_min, ring.theta_max, rule), ring.sectors);
     basis.rings().iter().flat_map(mean).collect()
 }
 
 impl Spread {
-    /// Whether nothing is scattered.
+    /// Whether no light is scattered: no diffuse part and no lobe.
     fn is_dark(&self) -> bool {
         self.diffuse.is_dark() && self.lobe.is_none()
     }
 
-    /// Returns the mean q over the emergent cells of the scattered light of one exact direction, with the given diffuse
-    /// share. \[1/sr\] Empty if nothing is scattered.
+    /// Returns the mean q over the emergent cells of the scattered light of one exact direction, with the diffuse share
+    /// `diffuse` of the incident light. \[1/sr\] Empty if nothing is scattered.
     fn of(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> Vec<f64> {
         if self.is_dark() {
             return vec![];
@@ -179,7 +187,7 @@ impl Spread {
         values
     }
 
-    /// Returns the values on the cells, and the error of every incident cell's total.
+    /// Returns q for all pairs of incident and emergent cells \[1/sr\], and the error of every incident cell's total.
     fn on(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<(Vec<f64>, Vec<f64>), Cancelled> {
         let (incident, emergent) = (setting.incident, setting.emergent);
         let straight = Btdf { regular: Some(self.regular.clone()), scattered: None };

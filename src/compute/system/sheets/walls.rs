@@ -1,10 +1,10 @@
 //! Opaque Lambertian sheets with holes: perforated and expanded metal, grids of webs.
 //!
 //! A hole is a convex polygon carried through the thickness of the sheet, perhaps obliquely. The undeviated share is
-//! the overlap of its two ends as seen along the light. Light on the walls is followed by radiosity: a point of a wall
+//! the overlap of its two ends as seen along the light. Light on the walls is computed by radiosity: a point of a wall
 //! is lit if the line back to the source leaves through the hole's end, so that the light on a patch is the area of two
-//! polygons' overlap, exactly; and a patch sends towards a direction what that direction would light. No light goes
-//! from one hole to another, because the faces are plane.
+//! polygons' overlap, exactly; and a patch sends light towards a direction in proportion to the area that light from
+//! that direction would reach. No light goes from one hole to another, because the faces are plane.
 
 use super::hole::{Hole, Perforated};
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
@@ -20,23 +20,25 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::f64::consts::PI;
 
-/// Number of corners of the polygon that represents a circle of the same area. Chosen: cost; from the circle its border
-/// departs by 0.6 % of the radius, its undeviated share by 2e-4 of the hole's area.
+/// Number of corners of the polygon that represents a round hole of the same area. Chosen: cost; from the circle its
+/// border departs by 0.6 % of the radius, its undeviated share by 2e-4 of the hole's area.
 const CIRCLE: usize = 24;
-/// Minimum number of patches around a hole. Chosen; held by the test
+/// Minimum number of patches of the walls around a hole. Chosen; held by the test
 /// `a_deep_hole_with_white_walls_is_a_pipe_that_loses_nothing`, which compares with Clausing's probability.
 const AROUND: usize = 24;
-/// Numbers of patches through the thickness: the coarsest and the finest. Chosen: cost; results change within their
-/// stated error, which is the change from the next coarser number.
+/// Numbers of patches of the walls through the sheet's thickness: of the coarsest and of the finest division. Chosen:
+/// cost; results change within their stated error, which is the change from the next coarser number.
 const DEPTH: [usize; 2] = [3, 12];
-/// Number of rays per patch for the exchange between patches. Chosen: cost; independent rays would leave 1/√2048 ≈ 2 %
-/// of a patch's exchange, a lattice less. Held by the tests of [`AROUND`] and `balance_and_reciprocity_of_every_shape`.
+/// Number of rays per patch by which the light exchange between patches is computed. Chosen: cost; independent rays
+/// would leave 1/√2048 ≈ 2 % of a patch's exchange, a lattice less. Held by the tests of [`AROUND`] and
+/// `balance_and_reciprocity_of_every_shape`.
 const RAYS: usize = 2048;
-/// Number of rounds of scaling that make the exchange reciprocal. Each round halves the deficit: 2⁻⁵⁰ ≈ 1e-15 of it,
-/// the rounding of f64, is left.
+/// Number of rounds of scaling that make the exchange between patches reciprocal. Each round halves the deficit: 2⁻⁵⁰ ≈
+/// 1e-15 of it, the rounding of f64, is left.
 const ROUNDS: usize = 50;
 
-/// Computes the means over the cells of a setting, with the walls cut finer until its error is met.
+/// Computes patch-averaged data of a perforated sheet on the cells of `setting`, with finer and finer patches on the
+/// walls until its allowed error is met.
 ///
 /// # Errors
 /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -69,7 +71,8 @@ pub(super) fn measure_walls(
     }
 }
 
-/// Hole cut into patches. Lengths over the square root of the sheet's area per hole; z = 0 is the outer face.
+/// Hole with its walls divided into patches. Lengths are relative to the square root of the sheet's area per hole; z =
+/// 0 is the outer face.
 pub(super) struct Walls {
     outer: Vec<DVec2>,
     inner: Vec<DVec2>,
@@ -80,16 +83,17 @@ pub(super) struct Walls {
     reflectance: [f64; 3],
 }
 
-/// Undeviated share and light on the walls for the cells of a basis, for light from one side.
+/// Undeviated share and flux on the walls for light of each cell of a basis, from one side.
 #[derive(Clone)]
 pub(super) struct Lit {
-    /// Undeviated share of each cell.
+    /// Share of the light on the sheet that passes undeviated, for each cell.
     straight: Vec<f64>,
-    /// Light on every patch (column) for every cell (row), per light on the sheet.
+    /// Flux on every patch (column) for light of every cell (row), per flux on the sheet.
     pub walls: Mat<f64>,
 }
 
 impl Walls {
+    /// Creates the walls of a hole with `depth` patches through the thickness of the sheet.
     pub fn new(sheet: &Perforated, depth: usize) -> Self {
         let unit = sheet.area.sqrt();
         let corners: Vec<DVec2> = match sheet.hole {
@@ -132,18 +136,18 @@ impl Walls {
         Self { open: area(&outer), outer, inner, thickness, patches, areas, reflectance: sheet.reflectance }
     }
 
-    /// Returns the number of patches.
+    /// Returns the number of patches of the walls.
     pub const fn len(&self) -> usize {
         self.patches.len()
     }
 
-    /// Returns the area of every patch, over that of the sheet per hole.
+    /// Returns the area of every patch, relative to the sheet's area per hole.
     pub fn areas(&self) -> &[f64] {
         &self.areas
     }
 
-    /// Returns the share that leaves each patch through the ends of the hole, from the light that the cells send to it
-    /// from both sides.
+    /// Returns the share of the light sent by each patch that leaves through the ends of the hole; by reciprocity it
+    /// follows from `through`, the light that reaches the patch from all cells of both sides.
     pub fn escaping(&self, cells: &RingBasis, through: &[Lit; 2]) -> Vec<f64> {
         let weight = cells.projected_solid_angles();
         let flux = |lit: &Lit, j: usize| (0..weight.len()).map(|o| lit.walls[(o, j)] * weight[o]).sum::<f64>();
@@ -154,6 +158,7 @@ impl Walls {
             .collect()
     }
 
+    /// Computes the patch-averaged data of the sheet with this division of the walls.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let n = self.patches.len();
@@ -211,8 +216,8 @@ impl Walls {
         Ok(measured)
     }
 
-    /// Computes the undeviated share and the light on the walls for every cell, from one side; `turned`: by the through
-    /// directions rotated by 180° about the normal.
+    /// Computes the undeviated share and the flux on the walls for light of every cell from `side`; `turned`: with the
+    /// directions of undeviated light rotated by 180° about the normal, as for reflected light.
     pub fn lit(&self, cells: &RingBasis, side: Side, turned: bool) -> Lit {
         let list: Vec<Cell> = cells.cells().collect();
         let rows: Vec<(f64, Vec<f64>)> = list
@@ -236,7 +241,8 @@ impl Walls {
         }
     }
 
-    /// Adds the light of one direction on the walls, times `share`; returns its undeviated share.
+    /// Adds the flux of light of one direction on every patch, times `share`, to `walls`, and returns the share that
+    /// passes undeviated. `name`: direction of undeviated light, rotated by 180° about the normal first if `turned`.
     pub fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
         let mut v = name.vector();
         if turned {
@@ -265,8 +271,9 @@ impl Walls {
         straight
     }
 
-    /// Returns the light that reaches patch j in the end per light that patch i receives first: (1 − K ρ)⁻¹.
-    /// `escaping`: the share that leaves each patch through the ends of the hole.
+    /// Returns the flux that patch j receives after all interreflections, per flux that patch i receives first: (1 − K
+    /// ρ)⁻¹ with the exchange K and the reflectance ρ. `escaping`: the share that leaves each patch through the ends of
+    /// the hole.
     pub fn response(&self, escaping: &[f64]) -> Mat<f64> {
         let n = self.patches.len();
         let rows: Vec<Vec<f64>> = (0..n).into_par_iter().map(|k| self.exchange(k)).collect();
@@ -282,7 +289,7 @@ impl Walls {
         system.partial_piv_lu().solve(Mat::<f64>::identity(n, n))
     }
 
-    /// Returns the share of the light of a patch that reaches each other patch, by rays of equal weight.
+    /// Returns the share of the light sent by patch `from` that reaches each patch, by rays of equal weight.
     fn exchange(&self, from: usize) -> Vec<f64> {
         let corners = &self.patches[from];
         let (u, w) = (corners[1] - corners[0], corners[3] - corners[0]);
@@ -316,7 +323,7 @@ impl Walls {
         row
     }
 
-    /// Returns the patch that a ray meets; `None` if it leaves through an end.
+    /// Returns the index of the patch that a ray meets; `None` if it leaves through an end of the hole.
     fn hit(&self, origin: DVec3, ray: DVec3, own: usize, depth: usize) -> Option<usize> {
         let n = self.outer.len();
         let parts = AROUND.div_ceil(n);
@@ -348,7 +355,8 @@ impl Walls {
     }
 }
 
-/// Distributes undeviated light, given for every incident cell, over the emergent cells.
+/// Adds undeviated light, given as a share for every incident cell, to the values q of the emergent cells that it falls
+/// into.
 fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     let shares = crate::compute::basis::Resampling::new(setting.incident, setting.emergent);
     let weight = setting.incident.projected_solid_angles();
@@ -359,8 +367,8 @@ fn straight_on(values: &mut [f64], setting: &Setting<'_>, straight: &[f64]) {
     }
 }
 
-/// Returns the area of the part of a convex polygon that lies within another one (counter-clockwise). `spare` is a
-/// buffer.
+/// Returns the area of the part of a convex polygon that lies within another one (counter-clockwise). The last argument
+/// is a pair of buffers.
 fn shared(subject: &[DVec2], within: &[DVec2], [polygon, spare]: &mut [Vec<DVec2>; 2]) -> f64 {
     polygon.clear();
     polygon.extend(subject);

@@ -1,9 +1,9 @@
 //! Woven screens by their openness and their yarn: the semi-empirical roller blind model of Kotey, Wright and Collins
 //! ("Determining off-normal solar optical properties of roller blinds", ASHRAE Transactions 115, 2009).
 //!
-//! The share that passes between the yarns ends at a cut-off angle; light through the yarns leaves diffusely. The model
-//! gives totals for each incidence; their distribution is made reciprocal, τ_d(θ_e) τ_d(θ_a)/(π τ̄_d), and reflection
-//! is Lambertian, as in the model.
+//! The share of light that passes between the yarns falls to 0 at a cut-off angle; light through the yarns leaves
+//! diffusely. The model gives totals for each incidence; their distribution is made reciprocal, τ_d(θ_e) τ_d(θ_a)/(π
+//! τ̄_d), and reflection is Lambertian, as in the model.
 
 use super::sheet::{Sheet, Spread};
 use crate::compute::basis::RingBasis;
@@ -14,22 +14,23 @@ use crate::compute::system::family::{Family, OpticalModelError, Polygons};
 use crate::compute::system::measure::{Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Pitch of the yarns as drawn; the description has none. \[m\] Chosen: affects drawings only, no figure.
+/// Pitch of the yarns in drawings; descriptions do not state it. \[m\] Chosen: affects drawings only, no figure.
 const YARN_PITCH: f64 = 0.001;
 
-/// Fabric described by its openness.
+/// Woven screen, described by its openness and the optical values of its yarn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Woven {
-    /// Open share of the area at normal incidence.
+    /// Openness: open share of the area at normal incidence, 0 … 1.
     pub openness: f64,
-    /// Diffuse reflectance of the yarn on the outer and inner face.
+    /// Diffuse reflectances of the yarn on the outer and on the inner face.
     pub reflectance: [f64; 2],
-    /// Transmittance of the yarn, all of it diffuse.
+    /// Transmittance of the yarn; all light through it is diffuse.
     pub transmittance: f64,
 }
 
 impl Woven {
-    /// Returns the share of light that passes between the yarns at a polar angle. \[rad\]
+    /// Returns the share of light, 0 … 1, that passes undeviated between the yarns at a polar angle of incidence.
+    /// \[rad\]
     pub fn open(&self, theta: f64) -> f64 {
         let closed = (FRAC_PI_2 * self.openness).cos();
         let cut_off = (90.0 - 25.0 * closed).to_radians();
@@ -41,7 +42,7 @@ impl Woven {
         passed.min(self.total(theta))
     }
 
-    /// Returns the share of light that passes between and through the yarns at a polar angle. \[rad\]
+    /// Returns the transmittance, between and through the yarns together, at a polar angle of incidence. \[rad\]
     pub fn total(&self, theta: f64) -> f64 {
         let yarn = self.transmittance;
         let exponent = if yarn <= 0.33 { 0.133 * (yarn + 0.003).powf(-0.467) } else { 0.33 * (1.0 - yarn) };
@@ -49,7 +50,7 @@ impl Woven {
         normal * theta.cos().max(0.0).powf(exponent)
     }
 
-    /// Creates the sheet of the fabric.
+    /// Creates the optical model of the fabric as a plane sheet.
     pub fn sheet(&self) -> Sheet {
         let table = |f: &dyn Fn(f64) -> f64| AngularTransmittance::sample(180, f);
         Sheet {
@@ -72,9 +73,9 @@ impl Family for Woven {
         "roller blind model of Kotey, Wright and Collins (ASHRAE Transactions 115, 2009)"
     }
 
-    /// Returns a yarn of a plain weave: with the pitch p its threads of width d leave (1 − d/p)² open.
+    /// Returns the section of a yarn of a plain weave: with the pitch p its threads of width d leave (1 − d/p)² open.
     fn drawing(&self, _: &str) -> Polygons {
-        /// Number of corners of a yarn's section as drawn. Chosen: affects drawings only, no figure.
+        /// Number of corners of a yarn's section in drawings. Chosen: affects drawings only, no figure.
         const CORNERS: usize = 32;
         let radius = 0.5 * YARN_PITCH * (1.0 - self.openness.max(0.0).sqrt());
         let corner = |k: usize| {
@@ -97,8 +98,8 @@ impl Family for Woven {
     }
 }
 
-/// Optical model of a fabric: the sheet, and for single directions the model itself, whose steep end at the cut-off
-/// angle no table reproduces.
+/// Optical model of a fabric: a sheet with tables over the polar angle, and for single directions the equations
+/// themselves, whose steep fall to 0 at the cut-off angle no table reproduces.
 struct Fabric {
     woven: Woven,
     sheet: Sheet,

@@ -1,43 +1,47 @@
-//! The direction cosine x along the slats when mirrors spread light: a diffusion that is reciprocal and keeps energy.
+//! Change of the direction cosine x along the slats when rough mirrors spread light: a diffusion that is reciprocal and
+//! conserves energy.
 //!
 //! On a line of constant profile angle projected solid angle is √(1 − x²) dx (see `profile_weights`), which is also the
 //! distribution of one coordinate of a point that is uniform on the unit sphere of four dimensions. A random step on
 //! that sphere hence changes x into x′ with a density that is symmetric for that measure, and steps add up: the
-//! variances of all mirrors met make one step. The heat kernel is used, K(x, x′) = (2/π) Σ e^(−n(n+2)σ²/2) Uₙ(x) Uₙ(x′)
-//! with the Chebyshev polynomials of the second kind (R. Askey, "Orthogonal Polynomials and Special Functions", SIAM
-//! 1975); near x = 0 it is a normal distribution of standard deviation σ. It is computed here as a Markov chain between
-//! bins, so that the bins' sums are exact.
+//! variances of all mirrors that a ray meets add up to that of one step. The heat kernel is used, K(x, x′) = (2/π) Σ
+//! e^(−n(n+2)σ²/2) Uₙ(x) Uₙ(x′) with the Chebyshev polynomials of the second kind (R. Askey, "Orthogonal Polynomials
+//! and Special Functions", SIAM 1975); near x = 0 it is a normal distribution of standard deviation σ. It is computed
+//! here as a Markov chain between bins, so that the bins' sums are exact.
 
 use super::profile_weights::primitive;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use std::f64::consts::PI;
 
-/// Number of bins of x, of equal width in its angle: 1.5°. Chosen; held to 2e-3 by the test
-/// `kernels_keep_energy_and_are_those_of_the_sphere`.
+/// Number of bins of the direction cosine x along the slats, of equal width in its angle: 1.5°. Chosen; held to 2e-3 by
+/// the test `kernels_keep_energy_and_are_those_of_the_sphere`.
 pub(super) const BINS: usize = 120;
-/// Maximum number of kernels. Chosen: memory and cost; between kernels the variance is interpolated. Held to 0.03 of
-/// the mean direction by the test `a_rough_sheet_scatters_by_steps_on_spheres` of `rough`.
+/// Maximum number of kernels (levels of variance). Chosen: memory and cost; between kernels the variance is
+/// interpolated. Held to 0.03 of the mean direction by the test `a_rough_sheet_scatters_by_steps_on_spheres` of
+/// `rough`.
 const LEVELS: i32 = 8;
-/// Variance from which nothing is left of the original direction. \[rad²\] The term that decays most slowly, U₁, is
-/// then e^(−3·8/2) ≈ 6e-6.
+/// Variance from which the result no longer depends on the original direction. \[rad²\] The term that decays most
+/// slowly, U₁, is then e^(−3·8/2) ≈ 6e-6.
 const ALL: f64 = 8.0;
-/// Variance below which the spread is finer than the bins. \[rad²\] A standard deviation of 0.3°, a fifth of a bin.
+/// Variance below which the spread along the slats is finer than the bins. \[rad²\] A standard deviation of 0.3°, a
+/// fifth of a bin.
 const NONE: f64 = 3e-5;
 
-/// Kernels between bins, by rising variance.
+/// Kernels by which light spreads between bins of the direction cosine x along the slats, in the order of rising
+/// variance.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Along {
-    /// Ends of the bins, −1 … 1.
+    /// Limits of the bins of x, −1 … 1, one more than there are bins.
     pub(super) edges: Vec<f64>,
-    /// ∫ √(1 − x²) dx of the bins.
+    /// Measure ∫ √(1 − x²) dx of each bin.
     pub(super) measure: Vec<f64>,
-    /// Pairs of variance and kernel, row by row: ∫∫ K over both bins, divided by the measures of both.
+    /// Pairs of variance \[rad²\] and kernel, a matrix row by row: ∫∫ K over two bins, divided by the measures of both.
     pub(super) levels: Vec<(f64, Vec<f64>)>,
 }
 
 impl Along {
-    /// Creates the kernels for mirrors whose smallest variance is `smallest`. \[rad²\]
+    /// Creates the kernels for mirrors whose smallest squared spread is `smallest`. \[rad²\]
     pub(super) fn new(smallest: f64) -> Self {
         let edges: Vec<f64> = (0..=BINS).map(|k| -(PI * k as f64 / BINS as f64).cos()).collect();
         let measure: Vec<f64> = edges.windows(2).map(|pair| primitive(pair[1]) - primitive(pair[0])).collect();
@@ -61,7 +65,8 @@ impl Along {
         Self { edges, measure, levels }
     }
 
-    /// Returns the level below a variance and the share of the one above, so that their mean is the variance.
+    /// Returns the index of the level below a variance \[rad²\] and the weight, 0 … 1, of the level above, so that the
+    /// weighted mean of both levels is the variance.
     pub(super) fn place(&self, variance: f64) -> (usize, f64) {
         let above = self.levels.partition_point(|(level, _)| *level <= variance).clamp(1, self.levels.len() - 1);
         let (low, high) = (self.levels[above - 1].0, self.levels[above].0);
@@ -69,7 +74,8 @@ impl Along {
     }
 }
 
-/// Returns I + t L between the bins' square roots, where L is the Laplacian (sin²χ p′)′/sin²χ of x = −cosχ.
+/// Returns the matrix I + t L of a diffusion step of duration `time`, made symmetric by the square roots of the bins'
+/// measures, where L is the Laplacian (sin²χ p′)′/sin²χ of x = −cosχ.
 fn step(measure: &[f64], time: f64) -> Mat<f64> {
     let width = PI / BINS as f64;
     let mut matrix = Mat::from_fn(BINS, BINS, |i, j| f64::from(u8::from(i == j)));

@@ -1,6 +1,7 @@
-//! Arcs of a section for rays: the whole circle, and shares of the length along the arc.
+//! Circular arcs of a slat's section for the tracing of rays: intersection with the whole circle, and position along
+//! the arc as a share of its length.
 
-/// Point or vector (outward, upward).
+/// Point \[pitches\] or vector (outward, upward) in the section.
 pub(super) type Point = [f64; 2];
 
 /// Circle that an arc of the section lies on.
@@ -8,16 +9,17 @@ pub(super) type Point = [f64; 2];
 pub(super) struct Circle {
     /// Centre of the circle.
     pub(super) centre: Point,
-    /// Radius, < 0 where the left of the arc is the hollow side.
+    /// Radius of the circle; negative where the left side of the arc is the concave one. \[pitches\]
     pub(super) radius: f64,
-    /// Left normal at the start of the arc.
+    /// Unit normal to the left at the start of the arc.
     normal: Point,
     /// Angle by which the normal turns along the arc. \[rad\]
     pub(super) turn: f64,
 }
 
 impl Circle {
-    /// Creates the circle of an arc from a to b with the left normals at both; `None` where the normals do not turn.
+    /// Creates the circle of an arc from `a` to `b` with the unit normals to the left at both ends; `None` where the
+    /// normals are equal (straight line).
     pub(super) fn of(a: Point, b: Point, [m, n]: [Point; 2]) -> Option<Self> {
         let change = [n[0] - m[0], n[1] - m[1]];
         let square = change[0] * change[0] + change[1] * change[1];
@@ -32,20 +34,20 @@ impl Circle {
         Some(Self { centre, radius, normal: m, turn })
     }
 
-    /// Returns the left normal at a point of the circle.
+    /// Returns the unit normal to the left of the arc at a point of the circle.
     pub(super) fn normal(&self, point: Point) -> Point {
         let w = [point[0] - self.centre[0], point[1] - self.centre[1]];
         let size = (w[0] * w[0] + w[1] * w[1]).sqrt().max(f64::MIN_POSITIVE).copysign(self.radius);
         w.map(|x| x / size)
     }
 
-    /// Returns the share of the arc at which the left normal is `n`.
+    /// Returns the position along the arc, as a share of its length, at which the normal to the left is `n`.
     pub(super) fn share(&self, n: Point) -> f64 {
         let m = self.normal;
         (m[0] * n[1] - m[1] * n[0]).atan2(m[0] * n[0] + m[1] * n[1]) / self.turn
     }
 
-    /// Returns the point at a share of the arc.
+    /// Returns the point at a position along the arc, given as a share of its length.
     pub(super) fn at(&self, share: f64) -> Point {
         let (sin, cos) = (share * self.turn).sin_cos();
         let m = self.normal;
@@ -53,7 +55,8 @@ impl Circle {
         [self.centre[0] + self.radius * n[0], self.centre[1] + self.radius * n[1]]
     }
 
-    /// Returns the distances along a ray at which it meets the whole circle, rising.
+    /// Returns the two distances along the ray from `p` in direction `d` at which it meets the whole circle, in rising
+    /// order; `None` if it misses the circle.
     pub(super) fn meets(&self, p: Point, d: Point) -> Option<[f64; 2]> {
         let w = [p[0] - self.centre[0], p[1] - self.centre[1]];
         let (ahead, beside) = (-(w[0] * d[0] + w[1] * d[1]), w[0] * d[1] - w[1] * d[0]);

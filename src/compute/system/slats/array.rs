@@ -4,25 +4,25 @@ use super::profile::SlatProfile;
 use crate::compute::limits;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-/// Finish of one side of a slat.
+/// Finish of one side of a slat: diffuse and specular reflectance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Surface {
-    /// Diffuse (Lambertian) reflectance.
+    /// Diffuse (Lambertian) reflectance, 0 … 1.
     pub diffuse: f64,
-    /// Specular reflectance; both reflectances together at most 1.
+    /// Specular reflectance, 0 … 1; both reflectances together are at most 1.
     pub mirror: f64,
-    /// Standard deviation σ of the mirrored direction about the ideal one, along either axis for light that comes near
-    /// the normal; the lobe for any light is described at the head of this module. \[rad\]
+    /// Spread σ of a rough mirror: standard deviation of the reflected direction about the ideal one, along either axis
+    /// for light near the normal; the lobe for all directions is described in [`super`]. \[rad\]
     pub spread: f64,
 }
 
 impl Surface {
-    /// Creates a matt surface.
+    /// Creates a matt surface of the given diffuse reflectance.
     pub const fn matt(diffuse: f64) -> Self {
         Self { diffuse, mirror: 0.0, spread: 0.0 }
     }
 
-    /// Creates an ideal mirror.
+    /// Creates an ideal mirror of the given specular reflectance.
     pub const fn mirror(mirror: f64) -> Self {
         Self { diffuse: 0.0, mirror, spread: 0.0 }
     }
@@ -32,15 +32,15 @@ impl Surface {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{key} = {value}: {allowed}")]
 pub struct SlatError {
-    /// Key of the quantity in system descriptions.
+    /// Key of the quantity in system files.
     pub key: &'static str,
-    /// Value that was given, in metres or degrees.
+    /// Value that was given, as text, in metres or degrees.
     pub value: String,
-    /// Allowed values, in words.
+    /// Allowed values, as text.
     pub allowed: String,
 }
 
-/// Endless array of equal horizontal slats, one above the other.
+/// Endless array of equal horizontal slats, one above the other: profile, thickness, pitch, tilt and finishes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SlatArray {
     profile: SlatProfile,
@@ -67,6 +67,8 @@ fn check_surface(side: &Surface, keys: [&'static str; 3]) -> Result<(), SlatErro
     check(keys[2], side.spread.to_degrees(), (0.0..=FRAC_PI_4).contains(&side.spread), "0 to 45 degrees")
 }
 
+/// Checks the dimensions of a profile and returns its size \[m\]: the chord, or the larger side of the box around its
+/// points.
 fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
     match profile {
         SlatProfile::Flat { width } => {
@@ -96,9 +98,9 @@ fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
 }
 
 impl SlatArray {
-    /// Creates slats of a profile and thickness \[m\], one every `spacing` \[m\], rotated by `tilt` \[rad\] (> 0 =
-    /// outer edge lowered) about the profile's origin. Thickness 0 is a sheet; edges of solid slats reflect diffusely,
-    /// with the mean reflectance of both sides.
+    /// Creates an array of slats of the given profile and thickness \[m\], one every `spacing` \[m\], rotated by `tilt`
+    /// \[rad\] (> 0 = outer edge lowered) about the profile's origin. Thickness 0 is a sheet; edges of solid slats
+    /// reflect diffusely, with the mean reflectance of both sides.
     ///
     /// # Errors
     /// Returns the first value that is out of range, with the allowed values.
@@ -130,32 +132,32 @@ impl SlatArray {
         Ok(Self { profile, thickness, spacing, tilt, upper, lower })
     }
 
-    /// Returns the section at tilt 0.
+    /// Returns the profile of a slat's section at tilt 0.
     pub const fn profile(&self) -> &SlatProfile {
         &self.profile
     }
 
-    /// Returns the thickness. \[m\]
+    /// Returns the thickness of a slat. \[m\]
     pub const fn thickness(&self) -> f64 {
         self.thickness
     }
 
-    /// Returns the pitch. \[m\]
+    /// Returns the vertical pitch of the slats. \[m\]
     pub const fn spacing(&self) -> f64 {
         self.spacing
     }
 
-    /// Returns the tilt, > 0 = outer edge lowered. \[rad\]
+    /// Returns the tilt of the slats, positive with the outer edge lowered. \[rad\]
     pub const fn tilt(&self) -> f64 {
         self.tilt
     }
 
-    /// Returns the finish of the upper side at tilt 0.
+    /// Returns the finish of the side of a slat that faces upwards at tilt 0.
     pub const fn upper(&self) -> Surface {
         self.upper
     }
 
-    /// Returns the finish of the lower side at tilt 0.
+    /// Returns the finish of the side of a slat that faces downwards at tilt 0.
     pub const fn lower(&self) -> Surface {
         self.lower
     }

@@ -1,39 +1,45 @@
-//! Interreflection between faces, and the part of it that leaves.
+//! Interreflection between the diffuse faces of slats, and the light that leaves the slats after it.
 //!
-//! With the exchange S (symmetric), the faces' lengths A and diffuse reflectances ρ, light that reaches the faces as g
-//! leaves them as M g, M = (I − D S)⁻¹ D, D = ρ/A: a symmetric form, so that q(ψ → ψ′) = h(ψ′)ᵀ M g(ψ)/π is reciprocal.
-//! A division into strips half as fine has a fourth of the strips' error (faces of constant exitance); both are solved,
-//! (4 M_fine − M_coarse)/3 is used, and a third of their difference is the stated error.
+//! With the exchange S between faces (symmetric), their lengths A and diffuse reflectances ρ, incident light g on the
+//! faces leaves them as exitance M g after all interreflections, M = (I − D S)⁻¹ D, D = ρ/A: a symmetric form, so that
+//! q(ψ → ψ′) = h(ψ′)ᵀ M g(ψ)/π is reciprocal (h: light from direction ψ′ on the faces). A division into strips half as
+//! fine has a fourth of the strips' error (faces of constant exitance); both are solved, (4 M_fine − M_coarse)/3 is
+//! used, and a third of their difference is the stated error.
 
 use super::flows::Transport;
 use super::outline::SlatSection;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
-/// Solved interreflection of a section.
+/// Solved interreflection between the faces of a section of slats.
 #[derive(Debug, Clone)]
 pub(super) struct Balance {
-    /// Light that leaves the faces, per width of incident light, as a bilinear form of incident widths.
+    /// Matrix M of the module head: exitance of each face (row) per width of light that is incident on each face
+    /// (column).
     pub(super) response: Mat<f64>,
-    /// Share of the light on a face that is absorbed in the end.
+    /// Share of the light incident on each face that is absorbed after all interreflections.
     pub(super) absorbed: Vec<f64>,
-    /// Share of the light on a face that scatters to the inside and to the outside.
+    /// Shares of the light incident on each face that leave the slats by diffuse reflection, to the inside and to the
+    /// outside.
     pub(super) leaves: [Vec<f64>; 2],
-    /// Error of `leaves`: a third of the difference of the two divisions.
+    /// Error of `leaves`, a third of the difference between the two divisions into strips.
     pub(super) uncertainty: [Vec<f64>; 2],
 }
 
-/// Maximum diffuse reflectance in the balance: white faces that exchange light only with each other would hold it
-/// without end. Chosen: the system's condition number stays below some 1e10, which leaves six of the 16 digits of f64.
+/// Maximum diffuse reflectance in the computation: white faces that exchange light only with each other would reflect
+/// it without end. Chosen: the system's condition number stays below some 1e10, which leaves six of the 16 digits of
+/// f64.
 const WHITEST: f64 = 1.0 - 1e-10;
 
-/// Solution for one division into strips.
+/// Solution of the interreflection for one division of the slats into strips.
 struct Division {
     response: Mat<f64>,
     absorbed: Vec<f64>,
     leaves: [Vec<f64>; 2],
 }
 
+/// Solves the interreflection for one division into strips, from the exchange between faces, their lengths, diffuse
+/// reflectances, absorptances `lost`, and the light that each face sends out to either side.
 fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exits: &[Vec<f64>; 2]) -> Division {
     let n = length.len();
     let d: Vec<f64> =
@@ -50,7 +56,8 @@ fn solve(exchange: &Mat<f64>, length: &[f64], diffuse: &[f64], lost: &[f64], exi
 }
 
 impl Balance {
-    /// Solves the interreflection of a section. `hat` are the weights of the nodes. \[rad\]
+    /// Solves the interreflection between the faces of a section. `hat`: weight of each node of the profile angle
+    /// \[rad\].
     pub(super) fn new(section: &SlatSection, transport: &Transport, hat: &[f64]) -> Self {
         let n = section.faces.len();
         let diffuse: Vec<f64> = section.faces.iter().map(|f| f.surface.diffuse).collect();

@@ -1,4 +1,5 @@
-//! Chains of mirror reflections: a ray from reflection to reflection until it leaves the slats or is given up.
+//! Chains of mirror reflections: a ray is traced from reflection to reflection until it leaves the slats or becomes too
+//! weak.
 
 use super::arc::Point;
 use super::outline::{Facet, SlatSection};
@@ -6,44 +7,45 @@ use super::sweep::Met;
 use crate::compute::sequence::{mix, recurrence, unit};
 use std::f64::consts::PI;
 
-/// Share of its start below which a ray is given up. Chosen: cost; the light given up shows in the energy balance,
-/// which is part of the stated error over cells.
+/// Share of its initial weight below which a ray is no longer traced. Chosen: cost; the light that is lost by this
+/// shows in the energy balance, which is part of the stated error over cells.
 const FAINT: f64 = 1e-6;
-/// Number of reflections after which a ray is given up: between perfect mirrors that nearly touch it may never leave.
-/// Chosen: cost; only mirrors above 0.997 reach it before [`FAINT`] (0.997⁵⁰⁰⁰ ≈ 3e-7).
+/// Number of reflections after which a ray is no longer traced: between perfect mirrors that nearly touch it may never
+/// leave. Chosen: cost; only mirrors above 0.997 reach it before [`FAINT`] (0.997⁵⁰⁰⁰ ≈ 3e-7).
 const MOST: usize = 5000;
-/// Distance from a strip beyond which a ray has left it. In pitches. Above the rounding of f64 at eight pitches, the
+/// Distance from a strip beyond which a ray has left it. \[pitches\] Above the rounding of f64 at eight pitches, the
 /// most that mirror slats may span: 8 · 2⁻⁵² ≈ 2e-15 per operation.
 const OFF: f64 = 1e-10;
 
-/// Ray that has just reached a face.
+/// Ray in the section of slats that has just reached a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ray {
-    /// Place of the ray, in the frame of the slat met.
+    /// Point that the ray has reached (outward, upward), relative to the origin of the slat that it has met.
+    /// \[pitches\]
     pub(super) point: Point,
-    /// Unit direction of travel (outward, upward).
+    /// Unit vector of the ray's travel in the section (outward, upward).
     pub(super) direction: Point,
     /// Strip, slat and face that the ray has reached.
     pub(super) met: Met,
 }
 
-/// Ray that leaves the slats.
+/// Ray that leaves the slats after its reflections.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Exit {
-    /// Unit direction of travel.
+    /// Unit vector of the ray's travel in the section (outward, upward).
     pub(super) direction: Point,
-    /// Weight of the ray.
+    /// Weight of the ray: product of the specular reflectances that it has met.
     pub(super) weight: f64,
-    /// Sum of the squared spreads of the mirrors met. \[rad²\]
+    /// Sum of the squared spreads σ² of the mirrors that the ray has met. \[rad²\]
     pub(super) variance: f64,
 }
 
-/// Equidistributed numbers with a separate start for every bundle of rays.
+/// Sequence of equidistributed numbers for the random steps of rays, with a separate start for every bundle of rays.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sequence {
     /// Number of rays drawn so far.
     ray: u64,
-    /// Number of reflections of this ray so far.
+    /// Number of reflections of the current ray so far.
     depth: usize,
     start: u64,
 }
@@ -54,8 +56,8 @@ pub(super) struct Sequence {
 const PRIMES: [u32; 16] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37, 41, 43, 47, 53];
 
 impl Sequence {
-    /// Creates the sequence of a seed from number `stream` on: the numbers of a node continue where its neighbour's
-    /// end, so that sums over nodes are equidistributed, too.
+    /// Creates the sequence of a seed, started at ray number `stream`: the numbers of a node continue those of its
+    /// neighbour, so that sums over nodes are equidistributed, too.
     pub(super) fn new(seed: u64, stream: u64) -> Self {
         Self { ray: stream * 1000, depth: 0, start: mix(seed) }
     }
@@ -65,7 +67,7 @@ impl Sequence {
         (self.ray, self.depth) = (self.ray + 1, 0);
     }
 
-    /// Returns two numbers of 0 … 1 for the next reflection.
+    /// Returns two equidistributed numbers between 0 and 1 for the next reflection of the current ray.
     fn pair(&mut self) -> [f64; 2] {
         let first = 2 * self.depth;
         self.depth += 1;
@@ -83,33 +85,33 @@ impl Sequence {
 /// Arrival of a ray at a face.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Landing {
-    /// Index of the facet, a straight run or arc of strips.
+    /// Index of the facet (straight run or arc of strips) that the ray reaches.
     pub(super) facet: usize,
-    /// Whether the ray arrives at the right side of the facet.
+    /// Whether the ray arrives from the right side of the facet.
     pub(super) right: bool,
-    /// Share of the facet's length at which the ray arrives.
+    /// Position along the facet at which the ray arrives, as a share of its length.
     pub(super) share: f64,
-    /// Weight that the ray still has.
+    /// Weight of the ray when it arrives.
     pub(super) weight: f64,
 }
 
-/// Path of a ray after its first mirror, per unit of its light on that mirror.
+/// Path of a ray after its first reflection by a mirror, with weights relative to the light of the ray on that mirror.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Trace {
-    /// Arrivals at faces, in order.
+    /// Arrivals at faces, in the order in which the ray meets them.
     pub(super) hits: Vec<Landing>,
-    /// Exit of the ray, if it leaves.
+    /// Exit of the ray, if it leaves the slats.
     pub(super) exit: Option<Exit>,
-    /// Hash of the slats and sides met: rays of a bundle with the same path have the same number.
+    /// Hash of the slats and sides that the ray has met: rays of a bundle that take the same path have the same hash.
     pub(super) way: u64,
 }
 
-/// Weight down to which reflections count in the path's hash. Chosen: cost; at most this share of a bundle is not cut
-/// where paths differ.
+/// Weight of a ray down to which its reflections count in the hash of its path. Chosen: cost; at most this share of a
+/// bundle is not cut where paths differ.
 const MIN_HASHED_WEIGHT: f64 = 1e-3;
 
 impl SlatSection {
-    /// Follows the mirrored part of a ray of weight 1 into `trace`.
+    /// Traces the specularly reflected part of a ray of weight 1 and stores its path in `trace`.
     pub(super) fn follow(&self, mut ray: Ray, sequence: &mut Sequence, trace: &mut Trace) {
         sequence.next_ray();
         trace.hits.clear();
@@ -143,9 +145,9 @@ impl SlatSection {
         }
     }
 
-    /// Returns the direction after the mirror that a ray has reached. A spread σ moves the ideal direction's sine u to
-    /// the face's normal by a step on the unit sphere whose axis u is the height along (see the head of this module's
-    /// parent).
+    /// Returns the direction of a ray after reflection by the mirror that it has reached (outward, upward). For a rough
+    /// mirror with spread σ, the sine u of the ideal direction's angle to the normal is changed by a random step on the
+    /// unit sphere on which u is the height (see the parent module's head).
     fn mirrored(&self, ray: &Ray, spread: f64, sequence: &mut Sequence) -> Point {
         let strip = &self.strips[ray.met.strip];
         let d = ray.direction;
@@ -170,8 +172,9 @@ impl SlatSection {
         out.map(|x| x / size)
     }
 
-    /// Returns the first strip that a ray from a point of the slat at the origin meets, its place in the frame of the
-    /// slat met, and that slat's number.
+    /// Returns the first strip that the ray from `point` of the slat at the origin in direction `d` meets: the point
+    /// relative to the slat that is met, the strip, the arrival, and the number of that slat (in pitches above the
+    /// origin).
     fn next(&self, point: Point, d: Point, own: usize) -> Option<(Point, Met, Landing, i32)> {
         let mut best: (f64, Option<(usize, i32, f64, bool)>) = (f64::INFINITY, None);
         for step in -self.reach..=self.reach {
@@ -208,7 +211,8 @@ impl SlatSection {
         facet.first + facet.ends.partition_point(|end| *end < share).min(facet.ends.len() - 1)
     }
 
-    /// Distributes light on a side of a facet between two shares of it uniformly over its faces.
+    /// Distributes light that is uniform between two positions along a facet (`from`, `to`, as shares of its length)
+    /// over the facet's faces: calls `put(face, share of the light)`.
     pub(super) fn divide(&self, landing: &Landing, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
         let (low, high) = (from.min(to), from.max(to));
         let facet = &self.facets[landing.facet];
@@ -231,8 +235,8 @@ impl SlatSection {
 }
 
 impl Facet {
-    /// Calls `hit(distance, share of the length, from the right)` wherever a ray meets the facet. `itself`: the ray
-    /// comes from it.
+    /// Calls `hit(distance along the ray, position as a share of the facet's length, whether from the right)` wherever
+    /// the ray from `p` in direction `d` meets the facet. `itself`: the ray starts on this facet.
     fn hits(&self, p: Point, d: Point, itself: bool, mut hit: impl FnMut(f64, f64, bool)) {
         if let Some(circle) = &self.circle {
             for distance in circle.meets(p, d).into_iter().flatten() {

@@ -1,22 +1,23 @@
-//! Distribution of mirrored light over emergent cells.
+//! Distribution of specularly reflected light over emergent cells.
 //!
-//! Mirrors with horizontal slats keep the direction cosine x along the slats and change the profile angle only. On a
-//! line of constant ψ the emergent cells divide x into intervals; an incident cell sends light to that line within its
-//! own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ. Mirrors that
-//! spread light are not included: see `rough`.
+//! Ideal mirrors of horizontal slats leave the direction cosine x along the slats unchanged and change the profile
+//! angle only. On a line of constant ψ the emergent cells divide x into intervals; an incident cell sends light to that
+//! line within its own interval of x, so that shares are lengths in ∫ √(1 − x²) dx: exact in x, and on the nodes of ψ.
+//! Rough mirrors are treated in `rough`.
 
 use super::profile_weights::{Piece, ProfileGrid, primitive};
 use crate::compute::basis::RingBasis;
 
-/// Intervals of the cells of a basis at every node, rising, in ∫ √(1 − x²) dx.
+/// Intervals of the direction cosine x that the cells of a basis cover at every node of the profile angle, in terms of
+/// ∫ √(1 − x²) dx.
 #[derive(Debug, Clone)]
 pub(super) struct Intervals {
-    /// Intervals by node: (from, to, cell).
+    /// Intervals of each node in rising order: (from, to, index of the cell).
     lines: Vec<Vec<(f64, f64, usize)>>,
 }
 
 impl Intervals {
-    /// Creates the intervals of the cells of a basis.
+    /// Creates the intervals of the cells of a basis at the nodes of a grid of profile angles.
     pub(super) fn new(basis: &RingBasis, grid: ProfileGrid) -> Self {
         let mut lines = vec![vec![]; grid.len()];
         for (index, cell) in basis.cells().enumerate() {
@@ -44,7 +45,7 @@ impl Intervals {
         Self { lines }
     }
 
-    /// Returns the intervals of each cell at every node: `[cell]` (node, from, to).
+    /// Returns the intervals sorted by cell: for each of `cells` cells a list of (node, from, to).
     pub(super) fn by_cell(&self, cells: usize) -> Vec<Vec<(usize, f64, f64)>> {
         let mut list = vec![vec![]; cells];
         for (node, line) in self.lines.iter().enumerate() {
@@ -55,8 +56,8 @@ impl Intervals {
         list
     }
 
-    /// Calls `put(cell, share)` for the cells that `from` … `to` meets at a node. The shares add up to 1 where the
-    /// cells cover the hemisphere.
+    /// Calls `put(cell, share)` for all cells that overlap the interval `from` … `to` of ∫ √(1 − x²) dx at a node. The
+    /// shares add up to 1 where the cells cover the hemisphere.
     pub(super) fn divide(&self, node: usize, from: f64, to: f64, mut put: impl FnMut(usize, f64)) {
         let line = &self.lines[node];
         let length = to - from;

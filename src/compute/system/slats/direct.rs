@@ -9,7 +9,8 @@ use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Direct share as a function of ψ, with the places where it is not smooth.
+/// Direct share (light that passes without touching a slat) as a function of the profile angle ψ, with the angles at
+/// which it is not smooth.
 #[derive(Debug, Clone)]
 pub(super) struct Direct {
     profile: SlatProfile,
@@ -18,25 +19,26 @@ pub(super) struct Direct {
     knots: Vec<f64>,
 }
 
-/// Number of pieces of an arc's outline where thickness turns it into a polygon. Chosen: cost; the pieces miss the arc
-/// by 1/256² ≈ 1.5e-5 of its rise (2e-5 for half a circle).
+/// Number of straight pieces by which the outline of a curved slat with thickness is approximated. Chosen: cost; the
+/// pieces miss the arc by 1/256² ≈ 1.5e-5 of its rise (2e-5 for half a circle).
 const OUTLINE: usize = 256;
 
 impl SlatArray {
-    /// Returns the share of light of the profile angle `psi` \[rad\] that passes without touching a slat.
+    /// Returns the share, 0 … 1, of light with profile angle `psi` \[rad\] that passes without touching a slat.
     pub fn direct_share(&self, psi: f64) -> f64 {
         Direct::without_knots(self).share(psi)
     }
 }
 
 impl Direct {
-    /// Creates the direct share of an array, with its knots.
+    /// Creates the direct share of an array of slats, with the profile angles at which it is not smooth (knots).
     pub(super) fn new(array: &SlatArray) -> Self {
         let direct = Self::without_knots(array);
         Self { knots: direct.find_knots(), ..direct }
     }
 
-    /// Creates the direct share without knots, for single profile angles, where nothing is integrated.
+    /// Creates the direct share of an array of slats without knots, for single profile angles, where nothing is
+    /// integrated.
     pub(super) fn without_knots(array: &SlatArray) -> Self {
         // A solid slat blocks its outline's extent; the outline is given at its tilt already.
         let solid = array.thickness() > 0.0;
@@ -50,12 +52,13 @@ impl Direct {
         Self { profile, tilt, pitch: array.spacing(), knots: vec![] }
     }
 
-    /// Returns the share that passes at a profile angle. \[rad\]
+    /// Returns the share of light, 0 … 1, that passes without touching a slat at a profile angle. \[rad\]
     pub(super) fn share(&self, psi: f64) -> f64 {
         self.profile.open_share(self.tilt, self.pitch, psi)
     }
 
-    /// Returns the profile angles at which the extent changes its law, and at which the share reaches 0. \[rad\]
+    /// Returns the profile angles at which the formula of a slat's extent changes, and at which the direct share
+    /// reaches 0. \[rad\]
     fn find_knots(&self) -> Vec<f64> {
         let mut slopes: Vec<f64> = match &self.profile {
             SlatProfile::Flat { .. } => vec![0.0],
@@ -76,8 +79,8 @@ impl Direct {
         slopes.dedup_by(|a, b| (*a - *b).abs() < 1e-12);
         let mut knots = slopes.clone();
         let closed = |psi: f64| self.profile.clearance(self.tilt, self.pitch, psi) < 0.0;
-        /// Number of steps between two slopes in which the share is searched for zeros, at most 2.8° wide. Chosen; held
-        /// by `tests/compute/goniophotometer_slats.rs::the_direct_share_is_exact_in_every_cell` (1e-5).
+        /// Number of steps, at most 2.8° wide, in which the direct share is searched for zeros between two such angles.
+        /// Chosen; held by `tests/compute/goniophotometer_slats.rs::the_direct_share_is_exact_in_every_cell` (1e-5).
         const SCAN: usize = 64;
         for pair in slopes.windows(2) {
             let step = (pair[1] - pair[0]) / SCAN as f64;
@@ -105,8 +108,8 @@ impl Direct {
         sum
     }
 
-    /// Returns, for every incident cell, its mean share and its flux into emergent cells: (emergent cell, ∫ share dPΩ
-    /// over what both have in common).
+    /// Returns, for every incident cell, the mean direct share and its flux into emergent cells: pairs of the emergent
+    /// cell's index and ∫ share dPΩ over the overlap of both cells (PΩ: projected solid angle \[sr\]).
     pub(super) fn cells(&self, incident: &RingBasis, emergent: &RingBasis) -> Vec<(f64, Vec<(usize, f64)>)> {
         let rule = gauss_legendre(10);
         let rings = RingIndex::new(emergent);
@@ -127,7 +130,7 @@ impl Direct {
     }
 }
 
-/// Cells of a basis by the θ of their rings.
+/// Rings of a basis by their polar angle θ, to find the cells that overlap a ring.
 struct RingIndex {
     rings: Vec<(f64, f64, std::ops::Range<usize>)>,
 }
@@ -151,7 +154,7 @@ impl RingIndex {
     }
 }
 
-/// Returns the convex hull, counter-clockwise (Andrew's monotone chain).
+/// Returns the convex hull of points, counter-clockwise (Andrew's monotone chain).
 fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

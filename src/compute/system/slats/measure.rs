@@ -1,4 +1,4 @@
-//! Patch-averaged data from the transport in a section.
+//! Patch-averaged BSDF data of slats, computed from the transport of light in their section.
 
 use super::array::{SlatArray, Surface};
 use super::balance::Balance;
@@ -16,9 +16,9 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use rayon::prelude::*;
 
-/// Numbers of coarse strips per slat: at the start, and at most. Chosen: cost; they are doubled until a tenth of the
-/// allowed error is met, and the error that remains is stated. At ρ = 0.95, before extrapolation, 20 strips leave 6e-4
-/// in τ, 40 leave 1e-4.
+/// Numbers of coarse strips per slat: initial and maximum. Chosen: cost; they are doubled until a tenth of the allowed
+/// error is met, and the error that remains is stated. At ρ = 0.95, before extrapolation, 20 strips leave 6e-4 in τ, 40
+/// leave 1e-4.
 const PARTS: [usize; 2] = [16, 128];
 /// Minimum number of coarse strips where mirrors are curved: strips are chords, and light that passes a chord misses
 /// the arc, by 1/32² ≈ 0.1 % of its rise. Chosen; held by
@@ -28,7 +28,7 @@ const CURVED: usize = 32;
 /// `single_directions_keep_the_balance_of_profile_angles` of `model` (2e-3 for matt slats).
 pub(super) const PARTS_BY_DIRECTION: usize = 32;
 
-/// Returns the step of the profile angle. \[rad\]
+/// Returns the step of the profile angle that the array and the allowed error require. \[rad\]
 fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
     let finest = setting
         .emergent
@@ -44,8 +44,9 @@ fn step(array: &SlatArray, setting: &Setting<'_>) -> f64 {
     wanted.to_radians().min(0.5 * finest).max(0.1_f64.to_radians())
 }
 
-/// Returns the widths of light on the faces for every cell: faces × cells, divided by the cells' projected solid
-/// angles. `turned`: by the opposite profile angle, as for reflected light.
+/// Returns the light on the faces for every cell as a matrix (faces × cells), averaged over each cell by projected
+/// solid angle. `rows`: light on each face by node of the profile angle; `turned`: at the opposite profile angle, as
+/// for reflected light.
 fn incident_widths(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>], turned: bool) -> Mat<f64> {
     let faces = rows[0].len();
     let mut matrix = Mat::zeros(faces, cells.len());
@@ -62,7 +63,7 @@ fn incident_widths(cells: &ProfileWeights, basis: &RingBasis, rows: &[Vec<f64>],
 }
 
 impl SlatArray {
-    /// Computes the scattering of the array on the cells of the setting.
+    /// Computes transmission and reflection of the array of slats as means over the cells of `setting`.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -71,6 +72,8 @@ impl SlatArray {
     }
 }
 
+/// Computes the scattering with finer and finer strips, until a tenth of the allowed error is met; adds direct light,
+/// matt faces and mirrors.
 fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
     /// Key of the stage in reports of progress.
     const STAGE: &str = "slats";
@@ -142,13 +145,13 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
     Ok(measured)
 }
 
-/// Returns the absorbed share of the light of every cell.
+/// Returns the share of the light of every incident cell that the faces absorb.
 fn absorbed(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     let of = |cell: usize| from.col_as_slice(cell).iter().zip(&balance.absorbed).map(|(g, a)| g * a).sum();
     (0..from.ncols()).map(of).collect()
 }
 
-/// Returns the error of every cell from the difference of the two divisions into strips.
+/// Returns the error of τ and ρ of every incident cell from the difference between the two divisions into strips.
 fn uncertainties(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     let of = |cell: usize| {
         let one = |uncertainty: &[f64]| {
@@ -159,7 +162,7 @@ fn uncertainties(balance: &Balance, from: &Mat<f64>) -> Vec<f64> {
     (0..from.ncols()).map(of).collect()
 }
 
-/// Adds the light that passes without touching a slat.
+/// Adds the light that passes without touching a slat to the transmitted light of both sides.
 fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured) {
     let cells = Direct::new(array).cells(setting.incident, setting.emergent);
     let m = setting.emergent.len();
@@ -174,7 +177,8 @@ fn add_direct(array: &SlatArray, setting: &Setting<'_>, measured: &mut Measured)
     }
 }
 
-/// Distributes the lobes of ideal mirrors of one node over the nodes of the grid: (node, width).
+/// Distributes beams and fans reflected by ideal mirrors over the nodes of the grid of profile angles: pairs of node
+/// and width.
 fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
     let mut line = vec![0.0; grid.len()];
     for lobe in lobes.iter().filter(|lobe| lobe.variance <= 0.0) {
@@ -189,8 +193,7 @@ fn on_nodes(lobes: &[Lobe], grid: ProfileGrid) -> Vec<(usize, f64)> {
     line.into_iter().enumerate().filter(|&(_, width)| width > 0.0).collect()
 }
 
-/// Adds the light reflected by ideal mirrors: flux from the weights of the cells, its division among emergent cells
-/// from their nodes.
+/// Adds the light reflected by ideal mirrors out of the section to the values of the emergent cells.
 fn add_mirrored(
     setting: &Setting<'_>,
     grid: ProfileGrid,

@@ -13,13 +13,14 @@
 //! | ideal mirrors | every bundle continues as rays at its ends and middle (`chain`) | seen in the energy balance |
 //! | mirrors that spread light | rays drawn by equidistributed numbers, made reciprocal (`reciprocal`) | stated |
 //!
-//! A mirror's spread σ is a lobe that is a product of two, about the ideal mirror's direction: one in the section, one
-//! in the direction cosine x along the slats. In the section the sine u of the angle to the face's normal is the height
-//! of a point on the unit sphere; a step there in any direction, its components normal with σ, turns u into u′ with a
-//! density that is symmetric for du, since heights of uniform points are uniform (Archimedes). Along the slats a step
-//! on the sphere of four dimensions does the same for the measure √(1 − x²) dx of x (`along`). Projected solid angle is
-//! du √(1 − x²) dx, so that the lobe is reciprocal and keeps all energy at any σ, grazing light included, and light
-//! that has become diffuse stays so. Rays draw the steps; `reciprocal` removes their scatter from sums and symmetry.
+//! A mirror's spread σ gives a lobe about the ideal mirror's direction that is the product of two: one in the section,
+//! one in the direction cosine x along the slats. In the section the sine u of the angle to the face's normal is the
+//! height of a point on the unit sphere; a step there in any direction, its components normal with σ, turns u into u′
+//! with a density that is symmetric for du, since heights of uniform points are uniform (Archimedes). Along the slats a
+//! step on the sphere of four dimensions does the same for the measure √(1 − x²) dx of x (`along`). Projected solid
+//! angle is du √(1 − x²) dx, so that the lobe is reciprocal and keeps all energy at any σ, grazing light included, and
+//! light that has become diffuse stays so. Rays draw the steps; `reciprocal` removes their scatter from sums and
+//! symmetry.
 
 mod along;
 mod arc;

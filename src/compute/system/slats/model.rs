@@ -1,4 +1,4 @@
-//! Optical model of slats: over cells, or for light of one exact direction.
+//! Optical model of slats: means over cells, and light of one exact direction.
 //!
 //! For one direction the direct share is a closed form, flat mirrors reflect parallel beams and curved ones reflect
 //! fans; matt faces scatter the light on them by the same balance as over cells, each direction of the section with its
@@ -27,52 +27,53 @@ use std::collections::HashMap;
 use std::f64::consts::{FRAC_1_PI, PI};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Optical model of slats, with cached solutions.
+/// Optical model of an array of slats, with cached solutions of its section.
 pub struct SlatModel {
     array: SlatArray,
     direct: Direct,
-    /// Section for beams where mirrors are curved; `section` is the one for scattered light, and for beams otherwise.
+    /// Finely divided section for the beams of curved mirrors; `section` is the one for scattered light, and for the
+    /// beams of flat mirrors.
     mirrors: OnceLock<SlatSection>,
     section: OnceLock<SlatSection>,
     solved: Once<Solved>,
     known: Mutex<HashMap<Place, Arc<Vec<MirrorBeam>>>>,
 }
 
-/// Key of a cached result: side, number of the profile angle, and spacing of the lattice.
+/// Key of a cached result: side, number of the profile angle in a lattice of equal steps, and the step as bits.
 type Place = (Side, i64, u64);
 
-/// Mirrored beam or fan, by its profile angles.
+/// Beam or fan reflected by mirrors, by the profile angles of its two ends \[rad\].
 struct MirrorBeam {
     psi: [f64; 2],
     share: f64,
     transmitted: bool,
 }
 
-/// Solved section: transport and balance.
+/// Solved section: transport of light between faces, and their interreflection.
 struct Solved {
     transport: Transport,
     balance: Balance,
 }
 
-/// Number of parts of a curved mirror, each of which reflects a separate fan. Chosen; held by
+/// Number of parts of a curved slat, each of which reflects a separate fan. Chosen; held by
 /// `tests/scenes/sharp_sun.rs::real_geometry`, which compares curved mirrors with rays through the section.
 const FANS: usize = 128;
-/// Step of the profile angle at which matt light leaves. \[rad\] Chosen: cost; linear between steps, to (0.5°)²/8 ≈
-/// 1e-5 of the second derivative.
+/// Step of the profile angle at which the light scattered by matt faces is computed. \[rad\] Chosen: cost; linear
+/// between steps, to (0.5°)²/8 ≈ 1e-5 of the second derivative.
 const STEP: f64 = 0.5 * PI / 180.0;
-/// Maximum number of cached results of mirrors: those of either side at steps of 0.1°. Chosen: memory only, no effect
-/// on results.
+/// Maximum number of cached lists of reflected beams: those of both sides at steps of 0.1°. Chosen: memory only, no
+/// effect on results.
 const MOST_KNOWN: usize = 3600;
-/// Seed of rays: the same light gives the same beams.
+/// Seed of the rays' random steps, constant so that the same light always gives the same beams.
 const SEED: u64 = 1;
-/// Angle below which beams are one. \[rad\] Above all rounding of f64, and 0.0002″.
+/// Difference of profile angles below which two beams count as one. \[rad\] Above all rounding of f64, and 0.0002″.
 const SAME: f64 = 1e-9;
 /// Number of directions along the slats over which a ray of a rough mirror is spread. Chosen: cost; its light is kept,
 /// only the distribution over cells depends on it, and no test of this module compares that.
 const ALONG: usize = 24;
 
 impl SlatModel {
-    /// Creates the optical model of an array.
+    /// Creates the optical model of an array of slats.
     pub fn new(array: SlatArray) -> Self {
         let direct = Direct::without_knots(&array);
         Self {
@@ -85,7 +86,8 @@ impl SlatModel {
         }
     }
 
-    /// Returns the section for beams: a fan is uniform between the rays at its ends, so curved mirrors are cut finely.
+    /// Returns the section for beams, in which curved slats are finely divided: a fan is uniform only between the rays
+    /// at the ends of one part.
     fn mirrors(&self) -> &SlatSection {
         if matches!(self.array.profile(), SlatProfile::Arc { .. }) {
             self.mirrors.get_or_init(|| SlatSection::new(&self.array, FANS))
@@ -118,19 +120,19 @@ impl SlatModel {
     }
 }
 
-/// Returns the weights of profile angles over cells, cached for all slats.
+/// Returns the weights of the nodes of the profile angle for each cell of a basis, cached for all systems of slats.
 fn weights(cells: &RingBasis) -> Arc<ProfileWeights> {
     static KEPT: Kept<ProfileWeights> = Kept::new();
     KEPT.get(cells, || ProfileWeights::new(cells, ProfileGrid::new(STEP)))
 }
 
-/// Returns the direction cosine along the slats, and the profile angle.
+/// Returns the direction cosine x along the slats and the profile angle \[rad\] of a direction.
 fn section_angles(name: Dir<Facade>) -> (f64, f64) {
     let v = name.vector();
     (v.x, v.y.atan2(v.z))
 }
 
-/// Returns the through direction of a profile angle with the direction cosine x.
+/// Returns the direction with the direction cosine `x` along the slats and the profile angle `psi`. \[rad\]
 fn name_of(x: f64, psi: f64) -> Dir<Facade> {
     let across = (1.0 - x * x).max(0.0).sqrt();
     Dir::from_unit(DVec3::new(x, across * psi.sin(), across * psi.cos()))
@@ -145,7 +147,8 @@ impl OpticalModel for SlatModel {
         self.beams_by(name, |psi| Arc::new(self.mirror_beams(psi, side)))
     }
 
-    /// Returns beams of mirrors from a lattice of profile angles at most 2 `within` apart.
+    /// Returns the beams for a direction near `name`: those of mirrors are computed at profile angles in steps of 2
+    /// `within` and cached.
     fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         self.beams_by(name, |psi| {
             let place = (psi / (2.0 * within)).round();
@@ -177,6 +180,8 @@ impl OpticalModel for SlatModel {
         self.direct.share(section_angles(name).1)
     }
 
+    /// Returns the light that matt faces transmit scattered, by profile angle; `None` without matt faces or with rough
+    /// mirrors, which spread light along the slats.
     fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
         let (_, psi) = section_angles(name);
         // Rough mirrors spread along the slats, too.
@@ -205,7 +210,8 @@ impl OpticalModel for SlatModel {
 }
 
 impl SlatModel {
-    /// Computes the scattered light; `back`: reflected light as well.
+    /// Computes the light that matt faces and rough mirrors scatter, on emergent cells; `back`: the reflected light,
+    /// too, not only the transmitted.
     fn scattered_light(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let (x, psi) = section_angles(name);
         let rough = self.has(|surface| surface.mirror * surface.spread);
@@ -225,7 +231,8 @@ impl SlatModel {
         light
     }
 
-    /// Returns the beams that mirrors make of parallel light of a profile angle from a side, equal ones merged.
+    /// Returns the beams and fans that ideal mirrors reflect out of the slats, for parallel light of profile angle
+    /// `psi` \[rad\] from `side`; equal ones are merged.
     fn mirror_beams(&self, psi: f64, side: Side) -> Vec<MirrorBeam> {
         let node = beam(self.mirrors(), psi, side, SEED);
         let mirrored = &node.mirrored[index(side)];
@@ -244,6 +251,8 @@ impl SlatModel {
         all
     }
 
+    /// Returns the direct beam and the beams reflected by mirrors for the direction `name`; `mirror_beams` supplies the
+    /// latter for its profile angle.
     fn beams_by(&self, name: Dir<Facade>, mirror_beams: impl FnOnce(f64) -> Arc<Vec<MirrorBeam>>) -> Vec<Beam> {
         let (x, psi) = section_angles(name);
         let mut beams = Vec::new();
@@ -263,7 +272,8 @@ impl SlatModel {
         beams
     }
 
-    /// Returns the light that faces send out per illuminance, for parallel light on them: M g/π as over cells.
+    /// Returns the luminance of each face per illuminance of the façade's plane by parallel light of profile angle
+    /// `psi` \[rad\] from `side`, M g / (π cosψ) with M of [`super::balance`]. \[1/sr\]
     fn sent(&self, node: &Node, psi: f64, side: Side) -> Vec<f64> {
         let incident = &node.incident[index(side)];
         let response = &self.solved().balance.response;
@@ -276,7 +286,7 @@ impl SlatModel {
         sent
     }
 
-    /// Returns the error of the shares that leave by diffuse reflection.
+    /// Returns the error of the share of the light that leaves the slats by diffuse reflection, to either side.
     fn uncertainty(&self, node: &Node, psi: f64, side: Side) -> f64 {
         let incident = &node.incident[index(side)];
         let one =
@@ -285,8 +295,8 @@ impl SlatModel {
         one(inside).max(one(outside))
     }
 
-    /// Returns the luminance at the nodes of the profile angle, from the width of parallel light of each that reaches
-    /// the faces.
+    /// Returns q of the scattered light at each node of the profile angle \[1/sr\]: the faces' luminances `sent`,
+    /// weighted by the width in which each is seen from there, `incident`.
     fn luminance(&self, incident: &[Vec<f64>], sent: &[f64]) -> Vec<f64> {
         let at = |(node, row): (usize, &Vec<f64>)| {
             // Along the slats the pitch is seen foreshortened; at ±90° nothing of it is seen.
@@ -298,7 +308,7 @@ impl SlatModel {
         incident.iter().enumerate().map(at).collect()
     }
 
-    /// Computes the light that matt faces scatter, by cells; `back`: reflected light as well.
+    /// Computes the light that matt faces scatter, on emergent cells; `back`: the reflected light, too.
     fn matt(&self, node: &Node, psi: f64, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
         let sent = self.sent(node, psi, side);
         let weights = weights(emergent);
@@ -323,8 +333,8 @@ impl SlatModel {
     }
 }
 
-/// Adds rays reflected by rough mirrors: their profile angles are drawn already, along the slats a step on the sphere
-/// of four dimensions moves x (see the head of the parent module).
+/// Adds the light reflected by rough mirrors to `q` by emergent cell \[1/sr\]. The profile angles of `lobes` contain
+/// the random spread already; the spread of x along the slats is drawn here (see the parent module's head).
 fn add_rough(q: &mut Vec<f64>, lobes: &[Lobe], [x, psi]: [f64; 2], emergent: &RingBasis) {
     let rough = || lobes.iter().filter(|lobe| lobe.variance > 0.0);
     if rough().next().is_none() {

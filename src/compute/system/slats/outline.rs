@@ -1,23 +1,24 @@
-//! Section of one slat as straight strips, each with the faces that light can meet. Lengths in pitches.
+//! Section of one slat as straight strips, each with the faces that light can meet. Lengths are in pitches of the
+//! array.
 //!
-//! Coordinates are (outward, upward). A strip runs so that its first face looks to its left: the upper side of a
-//! sheet, the outside of a solid slat. Every strip of the coarse division is halved; the coarse one serves the
-//! estimate of the error.
+//! Coordinates are (outward, upward). A strip is oriented so that its first face looks to its left: the upper side of a
+//! sheet, the outside of a solid slat. Every strip of the coarse division is halved; the coarse division is used to
+//! estimate the error.
 
 use super::arc::{Circle, Point};
 use super::array::{SlatArray, Surface};
 use super::profile::SlatProfile;
 
-/// Straight piece of the section.
+/// Straight piece of a slat's section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Strip {
     /// Start of the strip.
     pub(super) a: Point,
     /// End of the strip.
     pub(super) b: Point,
-    /// Unit normals of the described curve at both ends, to the left.
+    /// Unit normals, to the left, of the described (perhaps curved) section at both ends.
     pub(super) normals: [Point; 2],
-    /// Faces to the left and to the right; `None` towards the inside of a solid slat.
+    /// Indices of the faces to the left and to the right; `None` towards the inside of a solid slat.
     pub(super) faces: [Option<usize>; 2],
 }
 
@@ -30,7 +31,7 @@ pub(super) struct Face {
     pub(super) coarse: usize,
 }
 
-/// Strips of one finish that form one straight line or one arc, for rays.
+/// Consecutive strips of one finish that form one straight line or one arc, treated as one for the tracing of rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Facet {
     /// Start of the facet.
@@ -39,9 +40,9 @@ pub(super) struct Facet {
     pub(super) b: Point,
     /// Unit normal to the left of the line from start to end.
     pub(super) left: Point,
-    /// Index of the first strip.
+    /// Index of the facet's first strip.
     pub(super) first: usize,
-    /// Shares of the facet's length at which the strips end, rising to 1.
+    /// Positions along the facet, as shares of its length, at which its strips end; rising to 1.
     pub(super) ends: Vec<f64>,
     /// Circle that the facet is part of, if it is an arc.
     pub(super) circle: Option<Circle>,
@@ -50,11 +51,11 @@ pub(super) struct Facet {
 /// Consecutive facets within a bounding circle: rays that miss the circle miss them all.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
-    /// Range of indices of the facets.
+    /// Range of indices of the group's facets.
     pub(super) facets: std::ops::Range<usize>,
-    /// Centre of the bounding circle.
+    /// Centre of the bounding circle (outward, upward). \[pitches\]
     pub(super) centre: Point,
-    /// Radius of the bounding circle.
+    /// Radius of the bounding circle. \[pitches\]
     pub(super) radius: f64,
 }
 
@@ -62,6 +63,7 @@ pub(super) struct Group {
 const GROUP: usize = 6;
 
 impl Group {
+    /// Creates the group of the facets `range` with its bounding circle.
     fn of(facets: &[Facet], range: std::ops::Range<usize>) -> Self {
         /// Number of chords of an arc whose ends are bounded; `bulge` covers the rest. Chosen: cost only, no effect on
         /// results.
@@ -82,24 +84,24 @@ impl Group {
     }
 }
 
-/// Section of a slat of an endless array of pitch 1.
+/// Section of a slat of an endless array: strips, faces and facets, with lengths in pitches.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SlatSection {
     /// Strips of the slat at the origin.
     pub(super) strips: Vec<Strip>,
-    /// Faces of all strips.
+    /// Faces of all strips, in the order of their indices.
     pub(super) faces: Vec<Face>,
-    /// Straight runs and arcs of strips.
+    /// Facets: straight runs and arcs of strips.
     pub(super) facets: Vec<Facet>,
     /// Index of the facet of every strip.
     pub(super) facet_of: Vec<usize>,
-    /// Groups of a few facets.
+    /// Groups of a few consecutive facets with their bounding circles.
     pub(super) groups: Vec<Group>,
-    /// Number of coarse faces.
+    /// Number of faces of the coarse division.
     pub(super) coarse: usize,
     /// Whether the slats are solid; otherwise they are sheets.
     pub(super) solid: bool,
-    /// Maximum distance, in pitches, of the slat that light from a slat may meet next.
+    /// Maximum distance of a slat that light from the slat at the origin may meet next, in whole pitches.
     pub(super) reach: i32,
 }
 
@@ -113,7 +115,7 @@ struct CoarseStrip {
     right: Option<Surface>,
 }
 
-/// Returns `from` + share (`to` − `from`).
+/// Returns the point at the share `share` of the way from one point to another.
 pub(super) fn between(from: Point, to: Point, share: f64) -> Point {
     [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
 }
@@ -125,8 +127,8 @@ pub(super) fn left_of(a: Point, b: Point) -> Point {
     if length > 0.0 { [-v / length, u / length] } else { [0.0; 2] }
 }
 
-/// Returns the middle line at tilt 0 in metres from the inner to the outer edge: points with the normals before and
-/// after, cut into at least `parts` pieces.
+/// Returns the middle line of a slat's profile at tilt 0 from the inner to the outer edge, divided into at least
+/// `parts` pieces: points \[m\], each with the unit normals before and after it.
 fn middle(profile: &SlatProfile, parts: usize) -> Vec<(Point, [Point; 2])> {
     if let SlatProfile::Arc { width, rise } = profile {
         let half = 2.0 * (2.0 * rise.abs()).atan2(*width);
@@ -162,7 +164,7 @@ fn middle(profile: &SlatProfile, parts: usize) -> Vec<(Point, [Point; 2])> {
     list
 }
 
-/// Returns the line at the distance `offset` to the left of the middle line, mitred at corners.
+/// Returns the line parallel to the middle line at the distance `offset` \[m\] to its left, mitred at corners.
 fn beside(middle: &[(Point, [Point; 2])], offset: f64) -> Vec<Point> {
     let shift = |&(p, [m, n]): &(Point, [Point; 2])| {
         let scale = offset / (1.0 + m[0] * n[0] + m[1] * n[1]).max(0.1);
@@ -171,8 +173,8 @@ fn beside(middle: &[(Point, [Point; 2])], offset: f64) -> Vec<Point> {
     middle.iter().map(shift).collect()
 }
 
-/// Rotates a vector from the slat's own axes to its tilt. Quarter turns are exact: sheets that then lie in one plane
-/// must agree.
+/// Rotates a vector from the axes of the slat at tilt 0 to the given tilt \[rad\]. Quarter turns are exact, so that
+/// sheets which then lie in one plane coincide.
 fn turned(tilt: f64, [u, v]: Point) -> Point {
     let (mut sin, mut cos) = tilt.sin_cos();
     if cos.abs() < 1e-12 {
@@ -182,15 +184,16 @@ fn turned(tilt: f64, [u, v]: Point) -> Point {
 }
 
 impl SlatArray {
-    /// Returns the outline of one slat at its tilt, about the origin: (outward, upward) \[m\]. A sheet is one open
-    /// line, from the inner to the outer edge; a solid slat one closed polygon, its first point not repeated.
+    /// Returns the outline of one slat at its tilt, rotated about the origin, as (outward, upward) points \[m\]. A
+    /// sheet is one open line, from the inner to the outer edge; a solid slat one closed polygon, its first point not
+    /// repeated.
     pub fn outline(&self) -> Vec<Vec<[f64; 2]>> {
         vec![polygon(self, 32)]
     }
 }
 
-/// Returns the section's outline at its tilt: a sheet's line from the inner to the outer edge, or the closed polygon of
-/// a solid slat with its first point not repeated. \[m\]
+/// Returns the outline of a slat's section at its tilt, arcs divided into `parts` pieces: a sheet's line from the inner
+/// to the outer edge, or the closed polygon of a solid slat with its first point not repeated. \[m\]
 pub(super) fn polygon(array: &SlatArray, parts: usize) -> Vec<Point> {
     let line = middle(array.profile(), parts);
     let mut points = beside(&line, 0.5 * array.thickness());
@@ -201,7 +204,7 @@ pub(super) fn polygon(array: &SlatArray, parts: usize) -> Vec<Point> {
 }
 
 impl SlatSection {
-    /// Creates the section of an array whose slats are cut into about `parts` strips, each of them halved.
+    /// Creates the section of an array whose slats are divided into about `parts` coarse strips, each of them halved.
     pub(super) fn new(array: &SlatArray, parts: usize) -> Self {
         let mut list = coarse_parts(array, parts);
         for part in &mut list {
@@ -262,12 +265,13 @@ impl SlatSection {
         section
     }
 
-    /// Whether mirrors spread light.
+    /// Whether any of the mirrors is rough, i.e. spreads light.
     pub(super) fn rough(&self) -> bool {
         self.faces.iter().any(|face| face.surface.mirror > 0.0 && face.surface.spread > 0.0)
     }
 
-    /// Joins strips that rays need not distinguish: rays then meet a few facets instead of all strips.
+    /// Joins strips that rays need not distinguish into facets, so that a ray is tested against a few facets instead of
+    /// all strips.
     fn runs(&self) -> Vec<Facet> {
         let mut runs: Vec<std::ops::Range<usize>> = vec![];
         for (k, strip) in self.strips.iter().enumerate() {
@@ -279,7 +283,7 @@ impl SlatSection {
         runs.into_iter().map(|run| self.facet(run)).collect()
     }
 
-    /// Whether a strip continues the line or the arc of the one before.
+    /// Whether a strip continues the straight line or the arc of the strip before it.
     fn continues(&self, before: &Strip, strip: &Strip) -> bool {
         // Both halves of a strip, and strips cut at crossings, have faces of their own: what counts is their finish.
         let finish = |strip: &Strip| strip.faces.map(|face| face.map(|face| self.faces[face].surface));
@@ -293,7 +297,7 @@ impl SlatSection {
         joined && (straight || round) && finish(before) == finish(strip)
     }
 
-    /// Creates the facet of a run of strips.
+    /// Creates the facet of the consecutive strips `run`.
     fn facet(&self, run: std::ops::Range<usize>) -> Facet {
         let (first, last) = (&self.strips[run.start], &self.strips[run.end - 1]);
         let (a, b) = (first.a, last.b);
@@ -308,7 +312,7 @@ impl SlatSection {
     }
 }
 
-/// Returns the strips of the coarse division at tilt 0. \[m\]
+/// Returns the strips of the coarse division of a slat at tilt 0, lengths in metres.
 fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<CoarseStrip> {
     let line = middle(array.profile(), parts);
     let along = |points: &[Point], side: f64, left: Surface, right: Option<Surface>| {
@@ -341,7 +345,8 @@ fn coarse_parts(array: &SlatArray, parts: usize) -> Vec<CoarseStrip> {
     list
 }
 
-/// Returns the shares of the strips p and q (moved by `lift`) at which they cross.
+/// Returns the positions, as shares of their lengths, at which the strips `p` and `q` (raised by `lift`) cross; `None`
+/// if they do not.
 fn crossing(p: &CoarseStrip, q: &CoarseStrip, lift: f64) -> Option<(f64, f64)> {
     let (e, f) = ([p.b[0] - p.a[0], p.b[1] - p.a[1]], [q.b[0] - q.a[0], q.b[1] - q.a[1]]);
     let across = e[0] * f[1] - e[1] * f[0];
@@ -353,7 +358,8 @@ fn crossing(p: &CoarseStrip, q: &CoarseStrip, lift: f64) -> Option<(f64, f64)> {
     ((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)).then_some((s, t))
 }
 
-/// Returns the share of a strip's length at which it contains a point; `None` if the point is not on its line.
+/// Returns the position of a point along a strip, as a share of the strip's length; `None` if the point is not on its
+/// line.
 fn on_way(way: &CoarseStrip, point: Point) -> Option<f64> {
     let (e, w) = ([way.b[0] - way.a[0], way.b[1] - way.a[1]], [point[0] - way.a[0], point[1] - way.a[1]]);
     let square = e[0] * e[0] + e[1] * e[1];
@@ -361,7 +367,7 @@ fn on_way(way: &CoarseStrip, point: Point) -> Option<f64> {
     (off < 1e-9).then_some((e[0] * w[0] + e[1] * w[1]) / square)
 }
 
-/// Cuts strips where slats run through their neighbours (closed curved slats) and where they begin to lie upon them
+/// Splits strips where slats run through their neighbours (closed curved slats) and where they begin to lie upon them
 /// (closed flat slats), so that the order of strips along a line of sight never changes within one.
 fn split_at_crossings(list: Vec<CoarseStrip>, reach: i32) -> Vec<CoarseStrip> {
     let mut cuts: Vec<Vec<f64>> = vec![vec![]; list.len()];

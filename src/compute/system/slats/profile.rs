@@ -1,38 +1,39 @@
-//! Section of a slat at tilt 0: u outward along the chord, v upward; the middle of the chord is the origin, about which
-//! the slat rotates.
+//! Profile of a slat's section at tilt 0: u outward along the chord, v upward; the middle of the chord is the origin,
+//! about which the slat rotates.
 //!
-//! In the slat's own axes light of profile angle ψ comes from (cos α, sin α), α = β + ψ, where the tilt β > 0 lowers
-//! the outer edge. A slat blocks its extent across a parallel beam, so that every connected profile lets the share
-//! max(0, 1 − extent/(s cosψ)) pass between slats of pitch s.
+//! In the axes of the rotated slat, light of profile angle ψ comes from (cos α, sin α), α = β + ψ, where the tilt β > 0
+//! lowers the outer edge. A slat blocks its extent across a parallel beam, so that every connected profile lets the
+//! share max(0, 1 − extent/(s cosψ)) pass between slats of pitch s.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Shape of a slat's section, without its thickness. Lengths in metres.
+/// Shape of a slat's section at tilt 0, without its thickness. Lengths are in metres.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SlatProfile {
-    /// Straight line.
+    /// Flat slat: straight line.
     Flat {
-        /// Chord. \[m\]
+        /// Width of the slat. \[m\]
         width: f64,
     },
-    /// Circular arc.
+    /// Curved slat: circular arc.
     Arc {
-        /// Chord. \[m\]
+        /// Width of the slat along the chord. \[m\]
         width: f64,
         /// Height of the crown over the chord, > 0 = convex side up; at most half the chord. \[m\]
         rise: f64,
     },
-    /// Polyline of (outward, upward) points, from one edge to the other. \[m\]
+    /// Bent slat: polyline of (outward, upward) points from one edge to the other. \[m\]
     Polyline(Vec<[f64; 2]>),
 }
 
 impl SlatProfile {
-    /// Creates a flat profile if the rise is 0, else an arc.
+    /// Creates an arc of the given chord `width` and `rise` \[m\], or a flat profile if the rise is 0.
     pub fn curved(width: f64, rise: f64) -> Self {
         if rise == 0.0 { Self::Flat { width } } else { Self::Arc { width, rise } }
     }
 
-    /// Returns the extent across a beam at the angle `alpha` to the chord. \[rad → m\]
+    /// Returns the extent of the slat perpendicular to a parallel beam that makes the angle `alpha` \[rad\] with the
+    /// chord. \[m\]
     pub fn extent(&self, alpha: f64) -> f64 {
         let across = |[u, v]: [f64; 2]| v * alpha.cos() - u * alpha.sin();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -58,18 +59,21 @@ impl SlatProfile {
         if high > low { high - low } else { 0.0 }
     }
 
-    /// Returns the share of light of profile angle ψ that passes between slats of this tilt and pitch without touching
-    /// them; values below 0 give the overlap of the slats. Between −90° and 90°. \[rad, m\]
+    /// Returns the share of light with profile angle `psi` (−π/2 … π/2) that passes between slats with the given `tilt`
+    /// and `pitch` without touching them; negative values give the overlap of the slats. Angles in \[rad\], pitch in
+    /// \[m\].
     pub fn clearance(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
         1.0 - self.extent(tilt + psi) / (pitch * psi.cos())
     }
 
-    /// Returns [`clearance`](Self::clearance) as a share: 0 where nothing passes.
+    /// Returns the share, 0 … 1, of light with profile angle `psi` that passes between slats with the given `tilt` and
+    /// `pitch` without touching them. Angles in \[rad\], pitch in \[m\].
     pub fn open_share(&self, tilt: f64, pitch: f64, psi: f64) -> f64 {
         if psi.abs() < FRAC_PI_2 { self.clearance(tilt, pitch, psi).max(0.0) } else { 0.0 }
     }
 
-    /// Returns an arc as `parts` straight pieces of equal length; straight profiles unchanged. \[m\]
+    /// Returns the profile as points (outward, upward) of a polyline: an arc in `parts` straight pieces of equal
+    /// length, other profiles unchanged. \[m\]
     pub fn polyline(&self, parts: usize) -> Vec<[f64; 2]> {
         match self {
             Self::Flat { width } => vec![[-0.5 * width, 0.0], [0.5 * width, 0.0]],
@@ -87,7 +91,7 @@ impl SlatProfile {
     }
 }
 
-/// Returns the radius \[m\] and half the opening angle \[rad\] of an arc.
+/// Returns the radius \[m\] and half the opening angle \[rad\] of an arc with the given chord `width` and `rise` \[m\].
 pub fn arc(width: f64, rise: f64) -> (f64, f64) {
     let rise = rise.abs();
     ((0.25 * width * width + rise * rise) / (2.0 * rise), 2.0 * (2.0 * rise).atan2(width))

@@ -1,4 +1,4 @@
-//! Transmittance, reflectance and absorptance at single profile angles, without cells.
+//! Transmittance, reflectance and absorptance of slats at single profile angles, without cells.
 
 use super::array::SlatArray;
 use super::balance::Balance;
@@ -10,7 +10,7 @@ use super::transport::beam;
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::Side;
 
-/// Shares of light of one profile angle.
+/// Shares of the incident light of one profile angle that slats transmit, reflect and absorb.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProfileShares {
     /// Share that passes without touching a slat.
@@ -19,7 +19,7 @@ pub struct ProfileShares {
     pub transmitted: f64,
     /// Direct-hemispherical reflectance.
     pub reflected: f64,
-    /// Share absorbed, counted on its own.
+    /// Absorptance, computed independently of transmittance and reflectance.
     pub absorbed: f64,
 }
 
@@ -31,8 +31,8 @@ const PARTS: usize = 48;
 const STEP: f64 = std::f64::consts::PI / 720.0;
 
 impl SlatArray {
-    /// Computes the shares of light from a side at the given profile angles \[rad, −π/2 … π/2 without the ends\], to
-    /// about 1e-4.
+    /// Computes the shares for light from `side` at the profile angles `psi` (inside −π/2 … π/2) \[rad\], to about
+    /// 1e-4.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.

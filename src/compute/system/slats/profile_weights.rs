@@ -1,15 +1,16 @@
 //! Distribution of the directions of a cell over the profile angle ψ.
 //!
 //! With direction cosines (x, y, z), tanψ = y/z, projected solid angle is dx dy; on a line of constant ψ y = √(1 − x²)
-//! sinψ, so that dx dy = √(1 − x²) dx · cosψ dψ. A parallel beam of profile angle ψ that takes the width t across it in
-//! a pitch s carries the share t/(s cosψ): cosψ cancels, and a cell's mean of such a share is (1/s PΩ) ∫ t(ψ) D(ψ) dψ
-//! with D(ψ) = ∫ √(1 − x²) dx over the cell's part of the line. D has a closed form.
+//! sinψ, so that dx dy = √(1 − x²) dx · cosψ dψ. A part of width t (perpendicular to it) of a parallel beam of profile
+//! angle ψ carries the share t/(s cosψ) of the light on one pitch s: cosψ cancels, and a cell's mean of such a share is
+//! (1/s PΩ) ∫ t(ψ) D(ψ) dψ with D(ψ) = ∫ √(1 − x²) dx over the cell's part of the line. D has a closed form.
 
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::quadrature::gauss_legendre;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Grid of profile angles −90° … 90° in equal steps, both ends included; functions are linear between them.
+/// Grid of profile angles (nodes) from −90° to 90° in equal steps, both ends included; functions are linear between
+/// nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ProfileGrid {
     steps: usize,
@@ -27,7 +28,7 @@ impl ProfileGrid {
         self.steps + 1
     }
 
-    /// Returns the distance of nodes. \[rad\]
+    /// Returns the step between two nodes. \[rad\]
     pub(super) fn step(self) -> f64 {
         PI / self.steps as f64
     }
@@ -38,12 +39,13 @@ impl ProfileGrid {
         (node as f64 - 0.5 * self.steps as f64) * self.step()
     }
 
-    /// Returns ∫ of a node's hat function over ψ. \[rad\]
+    /// Returns the integral over ψ of a node's hat function (1 at the node, 0 at its neighbours). \[rad\]
     pub(super) fn hat(self, node: usize) -> f64 {
         if node == 0 || node == self.steps { 0.5 * self.step() } else { self.step() }
     }
 
-    /// Returns the node below a profile angle and the share of the node above.
+    /// Returns the index of the node below a profile angle \[rad\], and the weight of the node above in linear
+    /// interpolation.
     pub(super) fn place(self, psi: f64) -> (usize, f64) {
         let at = (psi / self.step() + 0.5 * self.steps as f64).clamp(0.0, self.steps as f64);
         let node = (at as usize).min(self.steps - 1);
@@ -56,19 +58,21 @@ pub(super) fn primitive(x: f64) -> f64 {
     0.5 * (x * (1.0 - x * x).max(0.0).sqrt() + x.asin())
 }
 
-/// Part of a cell inside one quadrant of (x, y), by its image in the first quadrant.
+/// Part of a cell inside one quadrant of the direction cosines (x, y), stored as its mirror image in the first
+/// quadrant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Piece {
     theta: [f64; 2],
     phi: [f64; 2],
-    /// Sign of x.
+    /// Sign of x in the part's quadrant.
     pub(super) right: f64,
-    /// Sign of y, and of ψ.
+    /// Sign of y, and thus of ψ, in the part's quadrant.
     pub(super) up: f64,
 }
 
 impl Piece {
-    /// Returns the parts of θ `from` … `to`, φ about `phi` by half a `width` (façade frame), one per quadrant.
+    /// Returns the parts, one per quadrant, of the region between two polar angles `theta` whose azimuths lie within
+    /// half of `width` about `phi` (façade frame). \[rad\]
     fn split(theta: [f64; 2], phi: f64, width: f64) -> Vec<Self> {
         let (from, to) = (phi - 0.5 * width, phi + 0.5 * width);
         let first = (from / FRAC_PI_2 + 1e-9).floor() as i64;
@@ -88,12 +92,12 @@ impl Piece {
             .collect()
     }
 
-    /// Returns the parts of a cell.
+    /// Returns the parts of a cell, one per quadrant that it reaches into.
     pub(super) fn of(cell: &Cell) -> Vec<Self> {
         Self::split([cell.theta_min, cell.theta_max.min(FRAC_PI_2)], cell.phi, cell.width)
     }
 
-    /// Returns the parts of the overlap of two cells.
+    /// Returns the parts, one per quadrant, of the overlap of two cells.
     pub(super) fn shared(a: &Cell, b: &Cell) -> Vec<Self> {
         let theta = [a.theta_min.max(b.theta_min), a.theta_max.min(b.theta_max).min(FRAC_PI_2)];
         if theta[1] - theta[0] < 1e-12 {
@@ -112,7 +116,8 @@ impl Piece {
         list
     }
 
-    /// Returns |x| from and to on the line of constant |ψ|, `None` where the line misses the part.
+    /// Returns the interval of |x| that the part covers on the line of constant |ψ| = `psi` \[rad\]; `None` where the
+    /// line misses the part.
     pub(super) fn across(&self, psi: f64) -> Option<[f64; 2]> {
         let (sine, cosine) = psi.sin_cos();
         let ring = |theta: f64| {
@@ -128,7 +133,8 @@ impl Piece {
         (high > low).then_some([low, high])
     }
 
-    /// Returns the values of |ψ| between which D is smooth, rising; first and last bound the part.
+    /// Returns the values of |ψ| \[rad\] between which D(ψ) of the module head is smooth, rising; the first and the
+    /// last are the limits of the part.
     pub(super) fn knots(&self) -> Vec<f64> {
         let at = |theta: f64, phi: f64| (theta.sin() * phi.sin()).atan2(theta.cos());
         let mut knots = vec![];
@@ -142,8 +148,9 @@ impl Piece {
         knots
     }
 
-    /// Calls `f(ψ, D dψ)` at the points of a rule that integrates what is smooth between the knots of the part and
-    /// `more` (signed ψ, any order), roots at the part's own ends included.
+    /// Calls `f(ψ, D dψ)` at the points of a quadrature over the part, for functions that are smooth between its knots
+    /// and the further knots `more` (signed ψ \[rad\], in any order); square-root behaviour at the ends of the part is
+    /// accounted for.
     pub(super) fn integrate(&self, rule: &[(f64, f64)], more: &[f64], mut f: impl FnMut(f64, f64)) {
         let own = self.knots();
         let (Some(&first), Some(&last)) = (own.first(), own.last()) else { return };
@@ -168,21 +175,23 @@ impl Piece {
     }
 }
 
-/// Weights ∫ hat D dψ of every cell: a few nodes per cell.
+/// Weights ∫ hat(ψ) D(ψ) dψ of the nodes of the profile angle for every cell of a basis; only a few nodes per cell have
+/// one.
 #[derive(Debug, Clone)]
 pub(super) struct ProfileWeights {
-    /// First node and the weights from it on, by cell. \[sr, since ∫ D cosψ dψ = PΩ\]
+    /// First node and the weights from it on, by cell. \[sr\], since ∫ D cosψ dψ is the projected solid angle.
     rows: Vec<(usize, Vec<f64>)>,
 }
 
 impl ProfileWeights {
-    /// Computes the weights of all cells of a basis.
+    /// Computes the weights of all cells of a basis on a grid of profile angles.
     pub(super) fn new(basis: &RingBasis, grid: ProfileGrid) -> Self {
         let rule = gauss_legendre(6);
         let rows = basis.cells().map(|cell| Self::row(&cell, grid, &rule)).collect();
         Self { rows }
     }
 
+    /// Computes the first node with a weight and all weights of one cell; `rule`: nodes and weights of the quadrature.
     fn row(cell: &Cell, grid: ProfileGrid, rule: &[(f64, f64)]) -> (usize, Vec<f64>) {
         let pieces = Piece::of(cell);
         let range = |piece: &Piece| {
@@ -206,13 +215,13 @@ impl ProfileWeights {
         (first, row)
     }
 
-    /// Returns the first node of a cell, and its weights from there on.
+    /// Returns the first node that has a weight for the cell `index`, and its weights from there on. \[sr\]
     pub(super) fn cell(&self, index: usize) -> (usize, &[f64]) {
         let (first, row) = &self.rows[index];
         (*first, row)
     }
 
-    /// Returns the number of cells.
+    /// Returns the number of cells of the basis.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
     }

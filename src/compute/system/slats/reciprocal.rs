@@ -1,8 +1,9 @@
-//! Light of rough mirrors from drawn rays, made reciprocal and energy-conserving.
+//! Light reflected by rough mirrors, from rays with random steps, made reciprocal and energy-conserving.
 //!
-//! Rays from either end of a path estimate the same flux: their mean is symmetric. Its sums over all light then are no
-//! longer exactly what was sent out, by the scatter of the drawing; a scaling of every direction and face, such that
-//! all sums are right again, corrects that. The deficit of the sums before is stated as error.
+//! Rays from either end of a path estimate the same flux: their mean is symmetric. With these means the sums over all
+//! light are no longer exactly the light that was sent out, because of the random steps; a factor for every direction
+//! and face, such that all sums are right again, corrects that. The deficit of the sums before the correction is stated
+//! as error.
 
 use super::along::Along;
 use super::flows::{MirroredLight, Rough, Second, Transport, VarianceLevel};
@@ -10,19 +11,22 @@ use super::outline::SlatSection;
 use super::profile_weights::ProfileGrid;
 use crate::compute::scaling::by_rounds;
 
-/// Number of rounds of scaling; each halves the deficit, so that 2⁻⁴⁰ ≈ 1e-12 of it is left.
+/// Number of rounds in which the factors are determined; each halves the deficit of the sums, so that 2⁻⁴⁰ ≈ 1e-12 of
+/// it is left.
 const ROUNDS: usize = 40;
-/// Maximum scale factor. Chosen: bounds sums that few rays have reached; light that is still missing shows in the
-/// energy balance, which is part of the stated error.
+/// Maximum correction factor. Chosen: bounds the correction of sums to which few rays have contributed; light that is
+/// still missing shows in the energy balance, which is part of the stated error.
 const LIMIT: f64 = 16.0;
 
-/// Symmetric sums of flux and of flux times variance.
+/// Light reflected by rough mirrors between nodes of the profile angle, made symmetric: sums of flux and of flux times
+/// variance.
 struct Sums {
     through: Vec<[f64; 2]>,
     back: [Vec<[f64; 2]>; 2],
 }
 
 impl Sums {
+    /// Sums up the light of all rays by incident and emergent node, as means of both paths.
     fn new(grid: ProfileGrid, mirrored: &[Vec<MirroredLight>; 2]) -> Self {
         let n = grid.len();
         let none = || vec![[0.0; 2]; n * n];
@@ -58,7 +62,8 @@ impl Sums {
     }
 }
 
-/// Returns the sums of every node from outside, from inside, and of every face, with these scales of all others.
+/// Returns the sums of light of every node from outside, of every node from inside, and of every face, with the
+/// correction factors `scales` of all others applied.
 fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64]) -> Vec<f64> {
     let n = hat.len();
     let (nodes, faces) = scales.split_at(2 * n);
@@ -85,7 +90,8 @@ fn rows(sums: &Sums, second: &Second, hat: &[f64], kept: &[f64], scales: &[f64])
     out
 }
 
-/// Makes the light found by rays reciprocal and energy-conserving. `direct` is the light on faces without mirrors.
+/// Makes the light found by rays reciprocal and energy-conserving: corrects `second`, the light on faces by way of
+/// mirrors, and returns the light that leaves. `direct` is the transport without mirrors.
 pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transport, second: &mut Second) -> Rough {
     let n = grid.len();
     let hat: Vec<f64> = (0..n).map(|node| grid.hat(node)).collect();
@@ -132,7 +138,7 @@ pub(super) fn settle(section: &SlatSection, grid: ProfileGrid, direct: &Transpor
     Rough { along, levels, uncertainty }
 }
 
-/// Returns the scaled sums as densities, divided among levels of variance.
+/// Returns the corrected sums as densities over the profile angles, divided among the levels of variance of `along`.
 fn divided(sums: &Sums, [front, back]: [&[f64]; 2], hat: &[f64], along: &Along) -> Vec<VarianceLevel> {
     let n = hat.len();
     let none = || vec![0.0; n * n];

@@ -1,5 +1,6 @@
-//! Light of rough mirrors from cell to cell: F A K F with the cells' parts F of every node and bin of x, the flux A
-//! between nodes, and the kernel K between bins; symmetric throughout, and complete where cells cover the hemisphere.
+//! Light reflected by rough mirrors from incident to emergent cells: the product F A K F, with the share F of each cell
+//! in every node of the profile angle and bin of x, the flux A between nodes, and the kernel K between bins. It is
+//! symmetric, and conserves energy where cells cover the hemisphere.
 
 use super::along::{Along, BINS};
 use super::flows::Rough;
@@ -9,16 +10,16 @@ use crate::compute::quadrature::gauss_legendre;
 use crate::compute::system::measure::{Measured, Setting, Side};
 use rayon::prelude::*;
 
-/// Part of a cell at one node: ∫ hat √(1 − x²) dx dψ over bins of x.
+/// Share of a cell in one node of the profile angle: ∫∫ hat(ψ) √(1 − x²) dx dψ over each bin of x.
 #[derive(Debug, Clone)]
 struct Footing {
     node: usize,
-    /// Index of the first bin.
+    /// Index of the first bin of x that the cell reaches into at this node.
     first: usize,
     parts: Vec<f64>,
 }
 
-/// Returns the parts of every cell of a basis.
+/// Returns the shares of every cell of a basis in the nodes of the profile angle and the bins of x.
 fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Footing>> {
     let nodes: Vec<f64> = (0..grid.len()).map(|node| grid.psi(node)).collect();
     let rule = gauss_legendre(6);
@@ -26,7 +27,7 @@ fn footings(basis: &RingBasis, grid: ProfileGrid, along: &Along) -> Vec<Vec<Foot
     cells.par_iter().map(|cell| footings_of(cell, grid, &nodes, &rule, along)).collect()
 }
 
-/// Returns the parts of one cell.
+/// Returns the shares of one cell in the nodes of the profile angle and the bins of x.
 fn footings_of(cell: &Cell, grid: ProfileGrid, nodes: &[f64], rule: &[(f64, f64)], along: &Along) -> Vec<Footing> {
     let mut sums: Vec<(usize, Vec<f64>)> = vec![];
     for piece in Piece::of(cell) {
@@ -67,14 +68,16 @@ fn footings_of(cell: &Cell, grid: ProfileGrid, nodes: &[f64], rule: &[(f64, f64)
     sums.into_iter().filter_map(trimmed).collect()
 }
 
-/// Cells that receive light at one node.
+/// Cells that receive light of one node of the profile angle.
 struct Targets {
     cells: Vec<usize>,
-    /// Share of the light in every bin of x, once spread, that goes into each cell: `[bin][cell]`.
+    /// Contribution to q of each cell of the light in every bin of x before it is spread along the slats,
+    /// `[bin][cell]`. \[1/sr\]
     parts: Vec<f64>,
 }
 
-/// Returns the cells at every node behind a kernel.
+/// Returns the cells that receive light of each node after spreading along the slats by `kernel`. `solid`: projected
+/// solid angles of the cells \[sr\].
 fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) -> Vec<Targets> {
     let mut footings: Vec<Vec<(usize, &Footing)>> = vec![vec![]; nodes];
     for (cell, list) in cells.iter().enumerate() {
@@ -93,7 +96,7 @@ fn targets(cells: &[Vec<Footing>], nodes: usize, kernel: &[f64], solid: &[f64]) 
     footings.par_iter().map(one).collect()
 }
 
-/// Adds the light reflected by rough mirrors.
+/// Adds the light reflected by rough mirrors out of the slats, and its error, to `measured`.
 pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough, measured: &mut Measured) {
     let incident = footings(setting.incident, grid, &rough.along);
     let other = (setting.incident != setting.emergent).then(|| footings(setting.emergent, grid, &rough.along));
@@ -123,7 +126,8 @@ pub(super) fn add_rough(setting: &Setting<'_>, grid: ProfileGrid, rough: &Rough,
     }
 }
 
-/// Adds the light that a cell sends by these flows from node to node.
+/// Adds the light of one incident cell, with the flux `flows` from node to node, to the emergent cells' values `row`,
+/// multiplied by `scale`.
 fn send(cell: &[Footing], flows: &[f64], targets: &[Targets], scale: f64, row: &mut [f64]) {
     // Before it is spread by the kernel, light keeps the few bins of x that the cell has: only these are carried along.
     let first = cell.iter().map(|f| f.first).min().unwrap_or(0);

@@ -1,31 +1,31 @@
-//! All lines of one direction through the section: which strips they meet, in which order.
+//! Sweep over all parallel lines of one direction through the section of slats: which strips they meet, in which order.
 //!
-//! Seen along the direction (cosψ, sinψ), the ends of all strips cut the lines into bundles that meet the same strips.
-//! A bundle of width dt that leaves one face and next meets another adds dt dψ / 2 to their exchange: equal both ways,
-//! so that the exchange is symmetric whatever the division of ψ. Bundles that leave the last slat, or reach the first,
-//! are those of parallel light from outside and inside.
+//! Seen along the direction (cosψ, sinψ), the ends of all strips divide the lines into bundles that meet the same
+//! strips. A bundle of width dt that leaves one face and next meets another adds dt dψ / 2 to their exchange: equal
+//! both ways, so that the exchange is symmetric whatever the division of ψ. Bundles that leave the last slat, or reach
+//! the first, are those of parallel light from outside and inside.
 
 use super::arc::Point;
 use super::outline::SlatSection;
 
-/// Face of the slat `copy` pitches above.
+/// Face of a slat that a line meets: strip and face in the section, and which slat of the array.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Met {
     /// Index of the strip in the section.
     pub(super) strip: usize,
-    /// Number of the slat, in pitches above the one at the origin.
+    /// Number of the slat in the array, counted upwards from 0 for the one at the origin.
     pub(super) copy: i32,
     /// Index of the face in the section.
     pub(super) face: usize,
 }
 
-/// Lines that leave `from` (or come from the inside) in the direction (cosψ, sinψ) and next meet `to` (or leave to the
-/// outside). At least one of the two is a face.
+/// Bundle of parallel lines that leave the face `from` (or come from the inside) in the direction (cosψ, sinψ) and next
+/// meet the face `to` (or leave to the outside). At least one of the two is a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bundle {
-    /// Width across the direction, in pitches.
+    /// Width of the bundle perpendicular to its direction. \[pitches\]
     pub(super) width: f64,
-    /// Distance of its middle from the origin, to the left of the direction.
+    /// Distance of the bundle's middle line from the origin, positive to the left of its direction. \[pitches\]
     pub(super) across: f64,
     /// Face that the bundle leaves; `None` if it comes from the inside.
     pub(super) from: Option<Met>,
@@ -33,32 +33,34 @@ pub(super) struct Bundle {
     pub(super) to: Option<Met>,
 }
 
-/// Strip of some slat as seen along the direction.
+/// Strip of a slat as seen along the direction of a sweep.
 #[derive(Debug, Clone, Copy)]
 struct StripView {
     strip: usize,
     copy: i32,
     low: f64,
     high: f64,
-    /// Depth along the direction at `low`; `slope` is its change per width.
+    /// Depth of the strip along the direction at `low` \[pitches\]; `slope` is its change per width.
     depth: f64,
     slope: f64,
-    /// Face looking against the direction; `along` is the one looking along it.
+    /// Index of the face that looks against the direction; `along` is that of the face that looks along it.
     against: Option<usize>,
     along: Option<usize>,
 }
 
-/// Width below which a bundle is rounding. In pitches. Some 450 roundings of f64 (2⁻⁵² ≈ 2.2e-16) of one pitch.
+/// Width below which a bundle is a rounding error. \[pitches\] Some 450 roundings of f64 (2⁻⁵² ≈ 2.2e-16) of one pitch.
 const NARROW: f64 = 1e-13;
-/// Distance along a line below which sheets lie in one another; the lower slat then is the inner one. In pitches. Above
-/// all rounding of f64, and 0.1 nm at a pitch of 0.1 m.
+/// Distance along a line below which two sheets count as touching; the lower slat then is taken as the inner one.
+/// \[pitches\] Above all rounding of f64, and 0.1 nm at a pitch of 0.1 m.
 const TOUCHING: f64 = 1e-9;
 
-/// Returns the distance of a point to the left of the direction (cos, sin), and along it.
+/// Returns the coordinates of a point with respect to the direction (cos, sin): distance to its left, and along it.
 pub(super) fn place([u, v]: Point, [cos, sin]: Point) -> (f64, f64) {
     (v * cos - u * sin, u * cos + v * sin)
 }
 
+/// Returns the strips of all slats that lines through one slat can meet, as seen along the direction, with the lower
+/// and upper limit of one slat across it. \[pitches\]
 fn seen_strips(section: &SlatSection, direction: Point) -> (Vec<StripView>, f64, f64) {
     let own: Vec<StripView> = section
         .strips
@@ -100,7 +102,8 @@ fn seen_strips(section: &SlatSection, direction: Point) -> (Vec<StripView>, f64,
     (all, low, high)
 }
 
-/// Calls `visit` for every bundle of one pitch that leaves or meets a slat, in a fixed order.
+/// Calls `visit` for every bundle of lines of the direction within one pitch that leaves or meets a slat, in a fixed
+/// order.
 pub(super) fn sweep(section: &SlatSection, direction: Point, mut visit: impl FnMut(Bundle)) {
     let (seen, low, high) = seen_strips(section, direction);
     let mut events: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * seen.len());
@@ -135,7 +138,7 @@ pub(super) fn sweep(section: &SlatSection, direction: Point, mut visit: impl FnM
     }
 }
 
-/// Sorts by insertion, since the order of one bundle is nearly that of the next.
+/// Sorts the strips that a line meets by depth: by insertion, since the order of one bundle is nearly that of the next.
 fn sort_by_depth(active: &mut [(f64, usize)], seen: &[StripView]) {
     let before = |a: &(f64, usize), b: &(f64, usize)| {
         if (a.0 - b.0).abs() > TOUCHING { a.0 < b.0 } else { seen[a.1].copy < seen[b.1].copy }
@@ -149,7 +152,8 @@ fn sort_by_depth(active: &mut [(f64, usize)], seen: &[StripView]) {
     }
 }
 
-/// Calls `pair` with the face that a line leaves and the face that it meets next.
+/// Calls `pair` for each piece of a line between two strips, with the face that the line leaves and the face that it
+/// meets next (`None`: outside or inside).
 fn along_line<'a>(
     solid: bool,
     order: impl Iterator<Item = &'a StripView>,

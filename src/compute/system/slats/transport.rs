@@ -1,4 +1,5 @@
-//! Transport of light between faces, to faces and past them, from sweeps over all profile angles.
+//! Transport of light in the section of slats: between faces, from outside to faces and past them, from sweeps of
+//! parallel lines over all profile angles.
 
 use super::arc::Point;
 use super::chain::{Exit, Landing, Ray, Sequence, Trace};
@@ -12,27 +13,27 @@ use crate::compute::system::measure::Side;
 use rayon::prelude::*;
 use std::rc::Rc;
 
-/// Contribution of a chunk of profile angles.
+/// Contribution of consecutive nodes of the profile angle to the transport.
 struct Chunk {
-    /// Exchange between strips, without mirrors and by way of them.
+    /// Exchange between faces: without mirrors, and by way of them.
     exchange: [Exchange; 2],
-    /// Lengths of the faces as seen over the profile angles.
+    /// Light that each face sends out over the profile angles, which adds up to its length. \[pitches\]
     length: Vec<f64>,
     nodes: Vec<Node>,
 }
 
-/// Transport of parallel light of one profile angle from either side.
+/// Transport of parallel light of one profile angle from outside and from inside.
 pub(super) struct Node {
-    /// Width that reaches every face without mirrors.
+    /// Width of the light that reaches every face without mirrors, from outside and from inside. \[pitches\]
     pub(super) incident: [Vec<f64>; 2],
-    /// Width that reaches every face by way of mirrors.
+    /// Width of the light that reaches every face by way of mirrors, from outside and from inside. \[pitches\]
     pub(super) second: [Vec<f64>; 2],
-    /// Light that mirrors reflect out of the section.
+    /// Light that mirrors reflect out of the section, from outside and from inside.
     pub(super) mirrored: [MirroredLight; 2],
 }
 
-/// Computes the transport of parallel light of one profile angle \[rad\] from a side: the width on every face and the
-/// light that mirrors reflect out. The entries of the other side stay empty.
+/// Computes the transport of parallel light of profile angle `psi` \[rad\] from `side`: its width on every face, and
+/// the light that mirrors reflect out of the section. The entries of the other side have no light.
 pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> Node {
     // The exchange between faces is not followed.
     let mut none = Chunk { exchange: [Exchange::new(0), Exchange::new(0)], length: vec![], nodes: vec![] };
@@ -44,7 +45,7 @@ pub(super) fn beam(section: &SlatSection, psi: f64, side: Side, seed: u64) -> No
     node
 }
 
-/// Bundle that reaches a face.
+/// Bundle of lines that reaches a face, with the face or the side that it comes from.
 struct Arrival {
     /// Face that sent the bundle; `None` for parallel light from a side.
     from: Option<Met>,
@@ -53,15 +54,16 @@ struct Arrival {
     side: Side,
 }
 
-/// Sums in which light is counted.
+/// Sums to which the light of traced rays is added.
 struct Into<'a> {
-    /// Exchange without mirrors, and by way of them.
+    /// Exchange between faces: without mirrors, and by way of them.
     exchange: &'a mut [Exchange; 2],
     node: &'a mut Node,
 }
 
 impl Into<'_> {
-    /// Adds a width of a bundle that reaches a face by way of mirrors.
+    /// Adds light of a bundle that reaches a face by way of mirrors. `width` \[pitches\]; `weight`: quadrature weight
+    /// of the profile angle.
     fn land(&mut self, arrival: &Arrival, face: usize, width: f64, weight: f64) {
         match arrival.from {
             Some(from) => self.exchange[1].add(from.face, face, weight * width),
@@ -69,7 +71,8 @@ impl Into<'_> {
         }
     }
 
-    /// Adds the mirrored part of a width of a bundle, by rays at its ends and between that take the same path.
+    /// Adds the specularly reflected light of a part of a bundle, `width` \[pitches\] wide, by the traces of three rays
+    /// at its lower end, middle and upper end.
     fn add(&mut self, section: &SlatSection, arrival: &Arrival, traces: [&Trace; 3], width: f64, weight: f64) {
         let [low, middle, high] = traces;
         for (k, landing) in middle.hits.iter().enumerate() {
@@ -106,7 +109,7 @@ impl Into<'_> {
         }
     }
 
-    /// Adds a width of a bundle that leaves between two rays.
+    /// Adds light of a bundle, `width` \[pitches\] wide, that leaves the section between two rays.
     fn leave(&mut self, arrival: &Arrival, exits: [&Exit; 2], width: f64) {
         // Through directions: against the light from outside, along the light from inside.
         let front = arrival.side == Side::Front;
@@ -124,8 +127,8 @@ impl Into<'_> {
 /// deficit of their sums is stated as error. Held by the test `a_rough_sheet_scatters_by_steps_on_spheres` of `rough`
 /// and `tests/compute/goniophotometer_slats.rs::mixed_surfaces_keep_energy_and_reciprocity`.
 const ROUGH: [f64; 2] = [400.0, 64.0];
-/// Smallest part of a bundle that is followed separately. Chosen: cost; where paths differ, a 64th of a bundle at most
-/// follows its middle ray. Held by
+/// Smallest part of a bundle that is traced separately, as a share of its width. Chosen: cost; where paths differ, a
+/// 64th of a bundle at most follows its middle ray. Held by
 /// `tests/compute/goniophotometer_slats.rs::level_mirrors_pass_light_after_as_many_reflections_as_unfolding_counts`.
 const FINEST: f64 = 1.0 / 64.0;
 /// Number of nodes per chunk whose sums are added in order: fixed, so that threads do not change the order. Chosen:
@@ -137,7 +140,7 @@ struct Tracer<'a> {
     direction: Point,
     weight: f64,
     rough: bool,
-    /// Side of the parallel light that alone is followed, if any.
+    /// Side whose parallel light alone is traced; `None`: that of both sides, and the light of the faces.
     only: Option<Side>,
 }
 
@@ -225,6 +228,8 @@ impl<'a> Tracer<'a> {
         Self { section, direction: [psi.cos().max(0.0), psi.sin()], weight, rough: section.rough(), only: None }
     }
 
+    /// Sweeps over all lines of one profile angle and returns the transport of its parallel light; the light between
+    /// faces is added to `part`.
     fn node(&self, part: &mut Chunk, mut sequence: Sequence) -> Node {
         let none = || vec![0.0; self.section.faces.len()];
         let mut node = Node {
@@ -260,8 +265,8 @@ impl<'a> Tracer<'a> {
         node
     }
 
-    /// Follows the mirrored part of a bundle that has reached a face: it is cut until the rays at both ends of a part
-    /// take the same path as the one between, which then represents it.
+    /// Traces the specularly reflected part of a bundle that has reached a face: the bundle is split until the rays at
+    /// both ends of a part take the same path as the one between, which then represents it.
     fn mirror(&self, bundle: &Bundle, arrival: &Arrival, into: &mut Into<'_>, sequence: &mut Sequence) {
         let [low, high] = [-0.5, 0.5].map(|side| bundle.across + side * bundle.width);
         let trace = |share: f64, sequence: &mut Sequence| {
@@ -303,7 +308,8 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Returns the point at which a line of the direction meets a strip, in the frame of its slat.
+    /// Returns the point at which the line at `across` (distance to the left of the direction, \[pitches\]) meets a
+    /// strip, relative to the strip's slat.
     fn on_strip(&self, met: Met, across: f64) -> Point {
         let strip = &self.section.strips[met.strip];
         let [cos, sin] = self.direction;

@@ -6,25 +6,25 @@ use super::profile::SlatProfile;
 use crate::compute::system::family::{Family, OpticalModelError, Polygons, state_key};
 use crate::compute::system::measure::OpticalModel;
 
-/// Horizontal slats, periodic upwards; they rotate about the middle of their chord.
+/// Venetian blind or louvres: equal horizontal slats, repeated upwards, which rotate about the middle of their chord.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Venetian {
-    /// Section of a slat at tilt 0.
+    /// Profile of a slat's section at tilt 0.
     pub profile: SlatProfile,
-    /// Vertical pitch. \[m\]
+    /// Vertical pitch of the slats. \[m\]
     pub spacing: f64,
-    /// Thickness of a slat, 0 = sheet. \[m\]
+    /// Thickness of a slat; 0 for a thin sheet. \[m\]
     pub thickness: f64,
-    /// Tilt of each state, > 0 = outer edge lowered, 90° = closed. \[rad\]
+    /// Tilt of the slats in each state: positive with the outer edge lowered, π/2 closed. \[rad\]
     pub angles: Vec<f64>,
-    /// Finish of the upper face.
+    /// Finish of the face of a slat that looks upwards at tilt 0.
     pub upper: Surface,
-    /// Finish of the lower face.
+    /// Finish of the face of a slat that looks downwards at tilt 0.
     pub lower: Surface,
 }
 
 impl Venetian {
-    /// Creates the slats of a state; `None` for a key that is not among its states.
+    /// Creates the array of slats of the state with key `state`; `None` if there is no such state.
     fn slats(&self, state: &str) -> Option<Result<SlatArray, super::SlatError>> {
         let angle = *self.angles.iter().find(|angle| state_key(**angle) == state)?;
         Some(SlatArray::new(self.profile.clone(), self.thickness, self.spacing, angle, [self.upper, self.lower]))

@@ -1,9 +1,10 @@
 //! Layers one behind the other, with all reflections between them: the adding method on matrices (Klems, ASHRAE
 //! Transactions 100, 1994).
 //!
-//! A matrix does not keep the place of light within its cell. Layers that transmit light undeviated (a pane in front of
-//! a blind) need the common angle of their passages, so the layers are computed on cells that are cut finer than those
-//! asked for, and only the sum is averaged. The remaining error is estimated from the change from the next coarser cut.
+//! A matrix does not preserve the direction of light within its cell. Layers that transmit light undeviated (a pane in
+//! front of a blind) need it, since the light passes all of them at the same angle; so the layers are computed on finer
+//! cells than the requested ones, and only the combined result is averaged. The remaining error is estimated from the
+//! difference to the next coarser division.
 
 use super::halves::{Flux, Halves};
 use super::single::Singles;
@@ -17,18 +18,19 @@ use crate::compute::system::measure::{
 };
 use std::f64::consts::PI;
 
-/// Optical model of layers from outside to inside.
+/// Optical model of layers one behind the other, from outside to inside, with all reflections between them.
 pub struct Stack {
     layers: Vec<Box<dyn OpticalModel>>,
-    /// Cache for single directions.
+    /// Cache of results for single directions.
     singles: Singles,
 }
 
-/// Maximum number of parts along either side of a cell: 9 parts of a Klems cell are 3.3° wide; 1300 cells are solved in
-/// a second. Chosen: cost; the change from the next coarser cut gives the stated error.
+/// Maximum number of parts into which a cell is divided along either side: 9 parts of a Klems cell are 3.3° wide; 1300
+/// cells are solved in a second. Chosen: cost; the difference to the next coarser division gives the stated error.
 const MOST_PARTS: usize = 3;
 
 impl OpticalModel for Stack {
+    /// Computes the stack on finer and finer cells, until the change is within the allowed error.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
         if let [only] = self.layers.as_slice() {
             return only.measure(setting, progress);
@@ -133,8 +135,8 @@ impl Stack {
         Self { layers, singles: Singles::default() }
     }
 
-    /// Returns all layers, outermost first, on the same cells, incident and emergent: each computed when it is asked
-    /// for.
+    /// Returns the data of all layers, outermost first, on the same incident and emergent cells; each is computed when
+    /// the iterator reaches it.
     fn on_cells<'a>(
         &'a self,
         cells: &'a RingBasis,
@@ -155,14 +157,15 @@ impl Stack {
     }
 }
 
-/// Function that gives the azimuth of the mirror image of a direction.
+/// Function from the azimuth of a direction to that of its mirror image. \[rad\]
 type Mirror = fn(f64) -> f64;
 
-/// Mirror symmetries of systems: left and right, as nearly all have it, then up and down.
+/// Mirror symmetries of systems: exchange of left and right, which nearly all systems have, then of up and down.
 const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
 
-/// Computes the sum of layers as means over the cells of the setting; `None` if one of them is not symmetric in the
-/// mirror. On fine cells whole matrices need most of the memory: each is freed as soon as it has been used.
+/// Combines the layers, with all reflections between them, into means over the cells of `setting`; `None` if one of the
+/// layers does not have the mirror symmetry `mirror`. On fine cells whole matrices need most of the memory: each is
+/// freed as soon as it has been used.
 fn sum(
     cells: &RingBasis,
     mirror: Option<Mirror>,
@@ -187,13 +190,15 @@ fn sum(
     Ok(sum.map(|sum| sum.measured(cells, &turn, &halves, setting)))
 }
 
-/// Returns the cell that each cell becomes by a rotation of 180° about the normal; `None` where there is no such cell.
+/// Returns the index of the cell that each cell becomes by a rotation of 180° about the normal; `None` if there is no
+/// such cell.
 fn turned(basis: &RingBasis) -> Option<Vec<usize>> {
     mirror_images(basis, |phi| phi + PI)
 }
 
-/// Layer as flux matrices (share of the light of column i that leaves through cell o, row), light from either side by
-/// its travelling direction as for light from outside, so that products of matrices chain.
+/// Layer as flux matrices: share of the light of cell i (column) that leaves through cell o (row). Light from either
+/// side is indexed by its direction of travel as for light from outside, so that the matrices of layers can be
+/// multiplied.
 struct Layered {
     t: [Flux; 2],
     r: [Flux; 2],
@@ -202,6 +207,8 @@ struct Layered {
 }
 
 impl Layered {
+    /// Creates the flux matrices of a layer from its data; `turn`: counterpart of each cell by a rotation of 180° about
+    /// the normal.
     fn new(Measured { emergent, front: f, back: b, .. }: Measured, turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
         let weight = emergent.projected_solid_angles();
@@ -217,7 +224,7 @@ impl Layered {
         }
     }
 
-    /// Returns the sum of this layer outside and another one inside.
+    /// Returns the combination of this layer outside and the layer `inner` inside, with all reflections between them.
     fn before(self, inner: Self) -> Self {
         let [t1, t1_back] = self.t;
         let [t2, t2_back] = inner.t;
@@ -252,7 +259,7 @@ impl Layered {
         }
     }
 
-    /// Returns the layer as means over the cells of the setting.
+    /// Returns the layer's transmission, reflection and absorption as means over the cells of `setting`.
     fn measured(&self, cells: &RingBasis, turn: &[usize], halves: &Halves, setting: &Setting<'_>) -> Measured {
         let n = turn.len();
         let weight = cells.projected_solid_angles();

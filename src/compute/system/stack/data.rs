@@ -1,4 +1,4 @@
-//! Layer given by the data of a file.
+//! Layer of a stack given by the BSDF data of a file.
 
 use crate::compute::basis::{Resampling, RingBasis, sub_directions};
 use crate::compute::btdf::{AngularTransmittance, Band, Btdf, Component, matrix_on};
@@ -6,8 +6,8 @@ use crate::compute::direction::{Dir, Emergent, Facade, Incident};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::{Beam, Measured, OpticalModel, ScatteredLight, Setting, Side};
 
-/// Optical model of the data of a file: means over the cells asked for; for single directions the values of the data
-/// there, without interpolation between their incident cells.
+/// Optical model from BSDF data, e.g. of a file: means over requested cells; for single directions the values of the
+/// data there, without interpolation between their incident cells.
 pub struct DataLayer(pub Band);
 
 /// Number of directions along either side of an emergent cell over which reversed transmission is averaged. Chosen:
@@ -15,8 +15,9 @@ pub struct DataLayer(pub Band);
 /// `rows_of_cells_and_the_regular_part_come_back`; a sample on others.
 const BACKWARDS: usize = 3;
 
-/// Returns the functions for light from a side: transmission, its reverse, reflection. Bands use the through directions
-/// of [`crate::compute::system::measure`].
+/// Returns the components of BSDF data that describe light from `side`: its transmission, the transmission from the
+/// other side (the reverse), its reflection. They use the directions of undeviated light of
+/// [`crate::compute::system::measure`].
 const fn components(side: Side) -> [Component; 3] {
     match side {
         Side::Front => [Component::TransmissionFront, Component::TransmissionBack, Component::ReflectionFront],
@@ -25,8 +26,8 @@ const fn components(side: Side) -> [Component; 3] {
 }
 
 impl OpticalModel for DataLayer {
-    /// Computes the means over cells. A missing transmission is derived from the other side by reciprocity; a missing
-    /// reflection counts as 0, and all light that does not pass as absorbed.
+    /// Computes the means of the data over the cells of `setting`. A missing transmission is derived from the other
+    /// side by reciprocity; a missing reflection counts as 0, and all light that does not pass as absorbed.
     fn measure(&self, setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Measured, Cancelled> {
         let mut measured = Measured::dark(setting);
         let on = |component| {
@@ -55,13 +56,13 @@ impl OpticalModel for DataLayer {
         Ok(measured)
     }
 
-    /// Returns `false`: more directions give no more detail than the cells of the data.
+    /// Returns `false`, since more directions give no more detail than the cells of the data.
     fn is_quick(&self) -> bool {
         false
     }
 
-    /// Returns regular transmission and reflection; all other light is in the scattered part, including narrow measured
-    /// peaks.
+    /// Returns the regular transmission and reflection of the data as beams; all other light, including narrow measured
+    /// peaks, is in the scattered part.
     fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
         let [through, opposite, back] = components(side);
         let share = |btdf: Option<&Btdf>| {
@@ -74,6 +75,7 @@ impl OpticalModel for DataLayer {
         beams.into_iter().filter(|beam| beam.share > 0.0).collect()
     }
 
+    /// Returns the scattered light of the data for one direction, as means over the emergent cells.
     fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         let [through, opposite, back] = components(side);
         let forwards = |btdf: &Btdf| {

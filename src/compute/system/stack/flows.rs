@@ -1,5 +1,5 @@
-//! Scattered light between layers, on the cells of [`front_basis`]: the effect of the layers' matrices on light that
-//! arises in the gaps.
+//! Scattered light between the layers of a stack, on the cells of [`front_basis`]: where light that arises in the gaps
+//! between layers leaves the stack.
 
 use super::passage::Place;
 use crate::compute::basis::RingBasis;
@@ -15,52 +15,53 @@ use std::f64::consts::PI;
 /// state is part of the stated error.
 const ERROR: f64 = 0.01;
 
-/// Matrices of the layers, light from either side by its own through directions.
+/// Flux matrices of the layers of a stack; light from either side is indexed by its direction of undeviated light.
 pub(super) struct Flows {
-    /// Incident and emergent cells, by through directions of light from either side.
+    /// Incident and emergent cells, which contain directions of undeviated light for light from either side.
     pub cells: RingBasis,
     /// Projected solid angles of the cells. \[sr\]
     pub weight: Vec<f64>,
-    /// Cell that each cell becomes by a rotation of 180° about the normal.
+    /// Index of the cell that each cell becomes by a rotation of 180° about the normal.
     turn: Vec<usize>,
     layers: Vec<[OneWay; 2]>,
-    /// Share of the light of a cell in a gap between layers that leaves through another in the end, inwards and
-    /// outwards, `[from · n + to]`, by gap and sense as [`between`] numbers them; by through directions of light from
-    /// the front.
+    /// Share of the light of one cell in a gap between layers that leaves the stack in another cell, inwards and
+    /// outwards, `[from · n + to]`; one entry per gap and sense, numbered by [`between`]. Cells are those of light from
+    /// outside.
     ends: Vec<[Vec<f64>; 2]>,
-    /// Largest estimated error of a layer.
+    /// Largest estimated error of τ and ρ of any layer.
     pub error: f64,
 }
 
-/// Transmission and reflection of a layer for light from one side.
+/// Flux matrices of a layer for light from one side.
 struct OneWay {
-    /// Share of the flux of a cell that is transmitted to another, `[from · n + to]`.
+    /// Share of the flux of one cell that is transmitted into another, `[from · n + to]`; `back` is that of reflected
+    /// light.
     through: Vec<f64>,
     back: Vec<f64>,
-    /// Share of the light of a cell that is transmitted undeviated.
+    /// Share of the light of each cell that is transmitted undeviated.
     straight: Vec<f64>,
 }
 
-/// Flux by cell that arises in the gaps of a stack.
+/// Flux, by cell, that arises in the gaps between the layers of a stack, e.g. by scattering of beams.
 pub(super) struct Sources {
-    /// Flux inwards and outwards, by gap and cell.
+    /// Flux that travels inwards and that travels outwards, by gap, then by cell; as shares of the incident light.
     pub gaps: Vec<[Vec<f64>; 2]>,
 }
 
 impl Sources {
-    /// Creates sources without light for `layers` layers.
+    /// Creates sources without light for a stack of `layers` layers and a basis of `cells` cells.
     pub fn dark(layers: usize, cells: usize) -> Self {
         Self { gaps: vec![[vec![0.0; cells], vec![0.0; cells]]; layers + 1] }
     }
 
-    /// Returns the light that arises in a place, by cell.
+    /// Returns the light, by cell, that arises in a gap and travels in the given sense.
     pub fn at(&mut self, (gap, inwards): Place) -> &mut Vec<f64> {
         &mut self.gaps[gap][usize::from(!inwards)]
     }
 }
 
 impl Flows {
-    /// Computes the matrices of every layer once.
+    /// Computes the flux matrices of all layers, and solves the reflections between them.
     pub fn new(layers: &[Box<dyn OpticalModel>]) -> Self {
         let cells = front_basis();
         let weight = cells.projected_solid_angles();
@@ -90,8 +91,8 @@ impl Flows {
         Self { cells, weight, turn, layers, ends, error }
     }
 
-    /// Returns the share, by cell, that passes undeviated through all layers that are left from a gap on; by through
-    /// directions of light from `asked`.
+    /// Returns the share of the light of each cell in a gap, travelling in the given sense, that passes undeviated
+    /// through all remaining layers; cells are those of light from the side `asked`.
     pub fn straight_out(&self, (gap, inwards): Place, asked: Side) -> Vec<f64> {
         let passed = if inwards { gap..self.layers.len() } else { 0..gap };
         let side = if inwards { Side::Front } else { Side::Back };
@@ -100,8 +101,8 @@ impl Flows {
         (0..self.turn.len()).map(share).collect()
     }
 
-    /// Returns the light of the sources that leaves inwards and outwards in the end; by through directions of light
-    /// from `asked`.
+    /// Returns the light of the sources that leaves the stack, inwards and outwards, by cell, after all reflections;
+    /// cells are those of light from the side `asked`.
     pub fn leaving(&self, sources: &Sources, asked: Side) -> [Vec<f64>; 2] {
         let n = self.layers.len();
         // Through directions of light from the front, in and out.
@@ -130,13 +131,14 @@ impl Flows {
     }
 }
 
-/// Returns the number of a place between layers; places outside all layers have none.
+/// Returns the number of a gap between two layers with the sense of travel in it; light outside all layers has none.
 fn between((gap, inwards): Place) -> usize {
     2 * (gap - 1) + usize::from(!inwards)
 }
 
-/// Returns the share of the light between layers that leaves in the end: all light is the light that arises plus what
-/// the layers make of all light, a system of linear equations.
+/// Returns the share of the light between layers that leaves the stack after all reflections (see [`Flows::ends`]). It
+/// solves a system of linear equations: all light in the gaps is the light that arises there plus the light that the
+/// layers transmit and reflect into them.
 fn ends(layers: &[[OneWay; 2]], turn: &[usize]) -> Vec<[Vec<f64>; 2]> {
     let (n, cells) = (layers.len(), turn.len());
     let places = 2 * (n - 1);
@@ -167,8 +169,8 @@ fn ends(layers: &[[OneWay; 2]], turn: &[usize]) -> Vec<[Vec<f64>; 2]> {
     (0..places).map(|place| [0, 1].map(|sense| block(place, sense))).collect()
 }
 
-/// Adds the product of a matrix and light. With `turn`, incident and resulting light change their through directions,
-/// while the matrix stays as it is.
+/// Adds the product of a flux matrix and the light `light` by cell to `to`. With `turn`, the cells of incident and
+/// resulting light are rotated by 180° about the normal, as for light from the other side.
 fn add(to: &mut [f64], matrix: &[f64], light: &[f64], turn: Option<&[usize]>) {
     if let Some(turn) = turn {
         let mut turned = vec![0.0; turn.len()];

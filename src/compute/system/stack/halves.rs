@@ -1,28 +1,30 @@
 //! Flux matrices of systems that are symmetric left to right, as two matrices of half the size.
 //!
-//! Light is divided into an even part (the same in mirrored cells) and an odd one (opposite in them). A system that is
-//! its own mirror image keeps both apart, so that products and inverses of matrices cost a quarter.
+//! Light is divided into an even part (equal in mirror-image cells) and an odd one (opposite in them). A symmetric
+//! system does not mix the two, so that products and inverses of matrices cost a quarter.
 
 use crate::compute::system::measure::Measured;
 use faer::Mat;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Maximum difference of flux between mirrored cells, as a share of the light of an incident cell. Chosen: the smallest
-/// error that `cfs goniophotometer` allows, above the rounding of the sums (145 · 2⁻⁵² ≈ 3e-14).
+/// Maximum difference of flux between mirror-image cells up to which a layer counts as symmetric, as a share of the
+/// light of an incident cell. Chosen: the smallest error that `cfs goniophotometer` allows, above the rounding of the
+/// sums (145 · 2⁻⁵² ≈ 3e-14).
 const UNLIKE: f64 = 1e-6;
 
-/// Cells in pairs of mirror images.
+/// Cells of a basis grouped in pairs of mirror images.
 pub(super) struct Halves {
-    /// Cells with their images, then those that are their own images.
+    /// Pairs of a cell and its mirror image, followed by the cells that are their own images.
     members: Vec<[usize; 2]>,
     pairs: usize,
-    /// Index of each cell's pair, and its sign in the odd part.
+    /// Index of the pair of each cell, and the cell's sign in the odd part.
     of: Vec<(usize, f64)>,
 }
 
 impl Halves {
-    /// Creates the pairs from the image of each cell; cells that are all their own images make a single part.
+    /// Creates the pairs from the index of each cell's mirror image; if all cells are their own images, there is only
+    /// the even part.
     pub fn new(image: &[usize]) -> Self {
         let pairs: Vec<[usize; 2]> = (0..image.len()).filter(|&k| k < image[k]).map(|k| [k, image[k]]).collect();
         let alone = (0..image.len()).filter(|&k| k == image[k]).map(|k| [k, k]);
@@ -37,12 +39,12 @@ impl Halves {
         Self { members, pairs: count, of }
     }
 
-    /// Creates a division without symmetry.
+    /// Creates the division for `n` cells without symmetry: each is its own image.
     pub fn none(n: usize) -> Self {
         Self::new(&(0..n).collect::<Vec<_>>())
     }
 
-    /// Whether the data of a layer are symmetric in the mirror.
+    /// Whether the data of a layer are symmetric for the mirror images `image` of the cells.
     pub fn fits(image: &[usize], measured: &Measured) -> bool {
         let n = image.len();
         let weight = measured.emergent.projected_solid_angles();
@@ -55,7 +57,7 @@ impl Halves {
         })
     }
 
-    /// Returns both parts of a matrix given by its entries (row, column).
+    /// Returns the even and the odd part of a matrix given by its entries `at(row, column)`.
     pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> Flux {
         let sums = |row: usize, column: usize, sign: f64| {
             let ([a, b], [c, d]) = (self.members[row], self.members[column]);
@@ -65,12 +67,13 @@ impl Halves {
         Flux { even: Mat::from_fn(n, n, |r, c| sums(r, c, 1.0)), odd: Mat::from_fn(m, m, |r, c| sums(r, c, -1.0)) }
     }
 
-    /// Returns the weight of a pair; a cell that is its own image is counted twice in sums over pairs.
+    /// Returns the normalisation of a pair: 1, or 1/√2 for a cell that is its own image, which sums over pairs count
+    /// twice.
     fn factor(&self, member: usize) -> f64 {
         if member < self.pairs { 1.0 } else { FRAC_1_SQRT_2 }
     }
 
-    /// Returns an entry of the whole matrix.
+    /// Returns the entry (`row`, `column`) of the whole matrix from its two parts.
     pub fn entry(&self, flux: &Flux, row: usize, column: usize) -> f64 {
         let ((r, sign_r), (c, sign_c)) = (self.of[row], self.of[column]);
         let even = |member: usize| if member < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
@@ -78,27 +81,27 @@ impl Halves {
         flux.even[(r, c)] * even(r) * even(c) + odd
     }
 
-    /// Returns the even part of a list over all cells whose images have the same value.
+    /// Returns the even part, one value per pair, of a list over all cells in which mirror images have the same value.
     pub fn list(&self, at: impl Fn(usize) -> f64) -> Vec<f64> {
         let one = |(e, &[a, b]): (usize, &[usize; 2])| (at(a) + at(b)) * FRAC_1_SQRT_2 * self.factor(e);
         self.members.iter().enumerate().map(one).collect()
     }
 
-    /// Returns the list over all cells of an even part.
+    /// Returns the list over all cells from its even part, one value per pair.
     pub fn unfolded(&self, even: &[f64]) -> Vec<f64> {
         let value = |&(e, _): &(usize, f64)| even[e] * if e < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
         self.of.iter().map(value).collect()
     }
 }
 
-/// Flux matrix in two parts, even and odd.
+/// Flux matrix of a system that is symmetric left to right, as an even and an odd part.
 pub(super) struct Flux {
     even: Mat<f64>,
     odd: Mat<f64>,
 }
 
 impl Flux {
-    /// Returns the product: light that has gone through `other` first.
+    /// Returns the matrix product self · other: the effect of `other`, then of `self`, on light.
     pub fn times(&self, other: &Self) -> Self {
         Self { even: &self.even * &other.even, odd: &self.odd * &other.odd }
     }
@@ -108,13 +111,13 @@ impl Flux {
         Self { even: &self.even + &other.even, odd: &self.odd + &other.odd }
     }
 
-    /// Returns (1 − self)⁻¹, ready to be applied.
+    /// Returns (1 − self)⁻¹, the sum of the geometric series of reflections, factorised for its application.
     pub fn series(&self) -> Series {
         let one = |part: &Mat<f64>| (Mat::<f64>::identity(part.nrows(), part.nrows()) - part).partial_piv_lu();
         Series { even: one(&self.even), odd: one(&self.odd) }
     }
 
-    /// Returns the sum of the rows weighted by an even list, for every column.
+    /// Returns the sum over the rows of every column, weighted by `weights`, one per pair of cells.
     pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
         let n = weights.len();
         (0..n).map(|i| (0..n).map(|k| self.even[(k, i)] * weights[k]).sum()).collect()
@@ -128,7 +131,7 @@ pub(super) struct Series {
 }
 
 impl Series {
-    /// Returns all light that `light` becomes by reflections between the layers, itself included.
+    /// Returns (1 − R)⁻¹ · `light`: the light itself plus all light that it becomes by reflections between the layers.
     pub fn of(&self, light: &Flux) -> Flux {
         Flux { even: self.even.solve(&light.even), odd: self.odd.solve(&light.odd) }
     }

@@ -1,26 +1,28 @@
-//! Stacks as described: layers by name, from outside to inside. Only a library can find the layers.
+//! Layers of a stack as its description names them, from outside to inside. Only a library of files and products can
+//! find their data.
 
 use crate::compute::system::family::{Family, OpticalModelError, Polygons};
 use crate::compute::system::measure::OpticalModel;
 
-/// Layer of a stack.
+/// Layer of a described stack: source of its data, and state.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     /// Source of the layer in the description: a system file, a dataset file, a product of the catalogue, or the
     /// description itself.
     pub source: LayerSource,
-    /// Key of the layer's state; empty for the only one.
+    /// Key of the layer's state; empty if it has only one.
     pub state: String,
 }
 
-/// Source of a layer.
+/// Source of the data of a stack's layer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LayerSource {
-    /// File, its path relative to the description's.
+    /// System or dataset file, by its path relative to the description's file.
     File(String),
-    /// Product of the catalogue.
+    /// Product of the catalogue, by its key.
     Catalogue(String),
-    /// Description of the layer: text of a system file. Text, because descriptions contain layers.
+    /// Description inside the stack's description, as the text of a system file (text, since descriptions contain
+    /// layers).
     Text(String),
 }
 

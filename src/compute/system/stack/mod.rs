@@ -1,4 +1,4 @@
-//! Stacks of layers one behind the other.
+//! Stacks of layers one behind the other, with all reflections between them.
 
 mod adding;
 mod data;

@@ -1,7 +1,7 @@
-//! Beams reflected and transmitted between the layers of a stack, followed one by one.
+//! Beams transmitted and reflected between the layers of a stack, traced one by one.
 //!
-//! All through directions are those of light from the side that is asked about. A layer that is met from the other side
-//! has the same light at the through direction rotated by 180°.
+//! All directions are directions of undeviated light as for light from the side that the incident light comes from. For
+//! a layer that is met from its other side they are rotated by 180° about the normal.
 
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::system::measure::fan::{middle, pieces};
@@ -10,58 +10,61 @@ use crate::compute::system::measure::{Beam, OpticalModel, Side};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
-/// Share of light still between the layers below which following ends: for an exact direction, and where neighbouring
-/// directions share a result. Chosen: cost; the first is held to 2e-7 by the test
+/// Share of the incident light still between the layers below which tracing ends: for an exact direction, and where
+/// neighbouring directions share a result. Chosen: cost; the first is held to 2e-7 by the test
 /// `panes_as_layers_follow_their_geometric_series` of `single`.
 const ENOUGH: [f64; 2] = [1e-7, 1e-5];
 /// Share of [`ENOUGH`] that may be dropped per bounce, faintest beams first. Chosen: cost; ten bounces drop no more
 /// than [`ENOUGH`].
 const FAINT: f64 = 0.1;
-/// Width of the parts into which a fan is divided at a layer. \[rad\] Chosen: half the sun's diameter of 0.53°.
+/// Angular width of the parts into which a fan of light is divided at a layer. \[rad\] Chosen: half the sun's diameter
+/// of 0.53°.
 const PIECE: f64 = 0.25 * std::f64::consts::PI / 180.0;
-/// Numbers of pairs of layer and direction: up to the first number every beam is followed, up to the second those of at
-/// least [`WEAK`]. Panes and cut panels need a handful; prisms produce ever more directions of ever less light. Chosen:
-/// cost; light that is not followed counts as scattered.
+/// Limits for the number of pairs of layer and direction: up to the first limit every beam is traced, up to the second
+/// those with a share of at least [`WEAK`]. Panes and cut panels need a handful; prisms produce ever more directions of
+/// ever less light. Chosen: cost; light that is not traced counts as scattered.
 const ASKED: [usize; 2] = [200, 600];
-/// Share from which a beam is followed beyond the first number of [`ASKED`]. Chosen: cost; a tenth of the share that
-/// may be neglected in all.
+/// Share of the incident light from which a beam is traced beyond the first limit of [`ASKED`]. Chosen: cost; a tenth
+/// of the share that may be neglected in all.
 const WEAK: f64 = 1e-5;
 
-/// Place of light: number of the gap (0 is outside) and whether it travels inwards.
+/// Position and sense of light in a stack: number of the gap between layers (0 is outside), and whether the light
+/// travels inwards.
 pub(super) type Place = (usize, bool);
 
-/// Light of one direction that arrives at a layer.
+/// Parallel light of one direction that arrives at a layer from one side.
 pub(super) struct Arrival {
+    /// Index of the layer, from the outermost on.
     pub layer: usize,
     /// Side that the light comes from.
     pub side: Side,
-    /// Through direction for the layer.
+    /// Direction of undeviated light for the layer, as seen from the side that the light comes from.
     pub name: Dir<Facade>,
-    /// Share of the light on the stack, all bounces together.
+    /// Share of the light on the stack that arrives, summed over all bounces between layers.
     pub share: f64,
-    /// Beams that the layer makes of it.
+    /// Beams that the layer transmits and reflects of this light.
     beams: Vec<Beam>,
 }
 
-/// Parallel light after all bounces between layers.
+/// Result of tracing parallel light through a stack, with all bounces between layers.
 #[derive(Default)]
 pub(super) struct Passage {
-    /// Beams that leave the stack.
+    /// Beams that leave the stack, transmitted or reflected.
     pub leaving: Vec<Beam>,
-    /// Light that arrived at the layers.
+    /// Light that arrived at the layers, by layer, side and direction.
     pub arrivals: Vec<Arrival>,
-    /// Beams that were not followed any further, with their places.
+    /// Beams that were not traced any further, with the gap and the sense in which they travel.
     pub left: Vec<(Place, Beam)>,
 }
 
-/// Returns the through direction for light from the other side: rotated by 180° about the normal.
+/// Returns the direction of undeviated light as it is for light from the other side: rotated by 180° about the normal.
 pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
     let v = name.vector();
     Dir::from_unit(DVec3::new(-v.x, -v.y, v.z))
 }
 
-/// Follows light of a through direction from a side through the layers, outside first; layers may use a direction at
-/// most `within` \[rad\] from the one asked for.
+/// Traces parallel light from `side` with the direction of undeviated light `name` through `layers` (outermost first).
+/// Layers may use the result of a direction at most `within` \[rad\] from the exact one.
 pub(super) fn follow(layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
     let enough = ENOUGH[usize::from(within > 0.0)];

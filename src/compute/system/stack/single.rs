@@ -1,7 +1,8 @@
 //! Single directions of a stack: its beams, and the light that its layers scatter from them.
 //!
-//! The light that a layer scatters is known on the cells asked for. Where it passes the remaining layers undeviated, it
-//! stays on those; the rest, reflected between layers and scattered again, is followed on coarser cells by matrices.
+//! The light that a layer scatters is computed on the requested emergent cells. The part that passes the remaining
+//! layers undeviated stays on these cells; the rest, reflected between layers and scattered again, is computed on
+//! coarser cells by matrices.
 
 use super::flows::{Flows, Sources};
 use super::passage::{Arrival, Passage, Place, follow};
@@ -13,25 +14,25 @@ use crate::compute::system::measure::{Beam, OpticalModel, ScatteredLight, Side, 
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// Maximum share of light that is neglected in all, each for arrivals of little light at the layers and for beams too
-/// many to be followed; it counts as absorbed. Chosen: cost; small beside the error of 0.01 that the layers are
-/// allowed.
+/// Maximum share of the incident light that may be neglected for each of two reasons: weak light that arrives at
+/// layers, and beams that are too many to be traced. It counts as absorbed. Chosen: cost; small beside the error of
+/// 0.01 that the layers are allowed.
 const NEGLECTED: f64 = 1e-4;
 
-/// Cache of results for all directions.
+/// Cache of the flux matrices of a stack, used by all single directions.
 #[derive(Default)]
 pub(super) struct Singles {
     flows: Once<Flows>,
 }
 
-/// Conversion between emergent cells and those of the matrices.
+/// Conversion of q between the requested emergent cells and the coarser cells of the matrices.
 struct Emergent {
     to_coarse: Resampling,
     from_coarse: Resampling,
 }
 
 impl Emergent {
-    /// Returns the conversion for a basis, cached for all stacks.
+    /// Returns the conversion for the basis `cells`, cached for all stacks.
     fn of(cells: &RingBasis) -> Arc<Self> {
         static KEPT: Kept<Emergent> = Kept::new();
         KEPT.get(cells, || {
@@ -42,12 +43,14 @@ impl Emergent {
 }
 
 impl Singles {
-    /// Returns the beams that leave the layers, each of which may use a direction at most `within` \[rad\] away.
+    /// Returns the beams that leave the stack for parallel light from `side` with the direction of undeviated light
+    /// `name`; layers may use the result of a direction at most `within` \[rad\] from the exact one.
     pub fn beams(&self, layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         follow(layers, name, side, within).leaving
     }
 
-    /// Computes the scattered light on emergent cells.
+    /// Computes the scattered light on the emergent cells `cells` for parallel light from `side` with the direction of
+    /// undeviated light `name`.
     pub fn scattered(
         &self,
         layers: &[Box<dyn OpticalModel>],
@@ -129,7 +132,7 @@ impl Singles {
     }
 }
 
-/// Removes the faintest arrivals and returns their share of light.
+/// Removes the weakest arrivals, together at most [`NEGLECTED`], and returns their share of the incident light.
 fn drop_faint(arrivals: &mut Vec<Arrival>) -> f64 {
     arrivals.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut dropped = 0.0;
