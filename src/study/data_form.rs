@@ -172,8 +172,8 @@ pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
         indicatrix: Indicatrix { basis: basis.clone(), q },
         how: how(made.numbers(), false),
         difference: Some(difference),
-    /// Returns the difference of processed luminance coefficients (`made`) from the original ones (`given`). `weights`:
-    /// projected solid angles of the emergent patches. \[sr\]
+        // Returns the difference of processed luminance coefficients (`made`) from the original ones (`given`). `weights`:
+        // projected solid angles of the emergent patches. [sr]
     })
 }
 

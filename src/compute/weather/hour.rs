@@ -115,7 +115,7 @@ impl Hour {
         self.direct_normal > 0.0 || self.diffuse_horizontal > 0.0
     }
 
-    /// Whether the record has no diffuse light although the sun is higher than [`HIGH_SUN`]: a gap of the file.
+    /// Whether the record has no diffuse light although the sun is high (`HIGH_SUN`): a gap of the file.
     pub fn lacks_sky(&self) -> bool {
         self.diffuse_horizontal <= 0.0 && self.sun.altitude().to_degrees() > HIGH_SUN
     }
