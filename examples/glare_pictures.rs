@@ -72,7 +72,7 @@ fn picture(scene: &Scene, lids: &[Lid], eye: &Sensor, found: &EyeGlare) -> Vec<f
             let corner = aperture.surface.facade_from_room(aperture.corner - eye.position);
             let on = through * (corner.z / through.z) - corner;
             if through.z > 0.0 && (0.0..aperture.size[0]).contains(&on.x) && (0.0..aperture.size[1]).contains(&on.y) {
-                seen = Some(lid.luminance(Emergent::from_through_name(Dir::from_unit(through))));
+                seen = Some(lid.luminance(Emergent::from_undeviated(Dir::from_unit(through))));
             }
         }
         match seen {

@@ -58,7 +58,7 @@ pub fn misplaced(lid: &Lid, facing: &Facing<'_>) -> f64 {
     for cell in RingBasis::equal_area(100).cells() {
         let twin = cell.centre();
         let truth = outside(facing, twin);
-        off += (lid.luminance(Emergent::from_through_name(twin)) - truth).abs();
+        off += (lid.luminance(Emergent::from_undeviated(twin)) - truth).abs();
         all += truth;
     }
     0.5 * off / all
@@ -108,7 +108,7 @@ pub fn diffuser_deviation(place: &Place) -> Result<f64> {
         let (scene, light) = place.lid(&Arc::new(system))?;
         let truth = tau * illuminance(&scene.facing(0)) / PI;
         for cell in RingBasis::equal_area(16).cells() {
-            let luminance = light.lid.luminance(Emergent::from_through_name(cell.centre()));
+            let luminance = light.lid.luminance(Emergent::from_undeviated(cell.centre()));
             worst = worst.max((luminance / truth - 1.0).abs());
         }
     }

@@ -377,7 +377,7 @@ fn figure_21() -> Result<Figure> {
         for (what, set, colour) in sets {
             let (_, light) = place.lid(set)?;
             let intensity =
-                |d: Dir<Facade>| 1000.0 * light.lid.intensity(Emergent::from_through_name(d)) / light.flux.value;
+                |d: Dir<Facade>| 1000.0 * light.lid.intensity(Emergent::from_undeviated(d)) / light.flux.value;
             drawn.push(Line::new(what, colour, outlines::section(intensity, towards)));
         }
         for line in &drawn {

@@ -119,15 +119,14 @@ pub struct Incident(pub Dir<Facade>);
 pub struct Emergent(pub Dir<Facade>);
 
 impl Emergent {
-    /// Returns the emergent direction −`twin` of light that arrives from the incident direction `twin` and passes
-    /// undeviated.
-    pub fn from_through_name(twin: Dir<Facade>) -> Self {
-        Self(twin.reversed())
+    /// Returns the emergent direction −ω_e of light that arrives from the incident direction ω_e and passes undeviated.
+    pub fn from_undeviated(incident: Dir<Facade>) -> Self {
+        Self(incident.reversed())
     }
 
     /// Returns the direction of undeviated light ω′ = −ω_a: the incident direction from which a clear pane would send
     /// light in this emergent direction ω_a.
-    pub fn through_name(self) -> Dir<Facade> {
+    pub fn undeviated_incident(self) -> Dir<Facade> {
         self.0.reversed()
     }
 }
@@ -261,7 +260,7 @@ mod tests {
         let incident = Incident(Surface::Facade.facade_dir(south.room_from_world(sun)));
         assert!((incident.0.phi().to_degrees() - 90.0).abs() < 1e-12);
         assert!((incident.0.theta().to_degrees() - 40.0).abs() < 1e-12);
-        let through = Emergent::from_through_name(incident.0);
+        let through = Emergent::from_undeviated(incident.0);
         assert!((through.0.phi().to_degrees() - 270.0).abs() < 1e-12);
         assert!((through.0.theta().to_degrees() - 140.0).abs() < 1e-12);
     }

@@ -81,7 +81,7 @@
 //! let orientation = Orientation::new(Bearing::from_degrees(180.0));
 //! let facing = Facing { outside: &outside, sun: None, orientation, surface: Surface::Facade };
 //! let lid = Emission::new(&Btdf::ideal_diffuse(0.5), &facing).lid(&facing, [1.2, 1.0]);
-//! let intensity = lid.intensity(Emergent::from_through_name(Dir::from_theta_phi(1.0, 0.0)));
+//! let intensity = lid.intensity(Emergent::from_undeviated(Dir::from_theta_phi(1.0, 0.0)));
 //! let expected = 0.5 * 5_000.0 / std::f64::consts::PI * 1.2 * 1_f64.cos();
 //! assert!((intensity / expected - 1.0).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -186,7 +186,7 @@
 //! let psi = 30_f64.to_radians();
 //! let [sun, mirrored] = [FRAC_PI_2, -FRAC_PI_2].map(|phi| Dir::from_theta_phi(psi, phi));
 //! let beams = model.beams(sun, Side::Front);
-//! let share = |name| beams.iter().filter(|b| b.names[0].dot(name) > 1.0 - 1e-9).map(|b| b.share).sum::<f64>();
+//! let share = |to| beams.iter().filter(|b| b.directions[0].dot(to) > 1.0 - 1e-9).map(|b| b.share).sum::<f64>();
 //! assert!((share(sun) - (1.0 - psi.tan())).abs() < 1e-9 && (share(mirrored) - psi.tan()).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

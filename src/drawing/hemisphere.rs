@@ -78,7 +78,7 @@ impl Side {
     /// Returns the direction that is drawn at a disk point (right, up; rim at radius 1), `None` outside the rim: for
     /// [`Side::Incident`] the incident direction itself, for [`Side::Emergent`] the incident direction whose undeviated
     /// light leaves in the emergent direction of that point.
-    pub fn through_name(self, projection: Projection, [right, up]: [f64; 2]) -> Option<Dir<Facade>> {
+    pub fn direction_at(self, projection: Projection, [right, up]: [f64; 2]) -> Option<Dir<Facade>> {
         let radius = right.hypot(up);
         if radius > 1.0 {
             return None;
@@ -100,7 +100,7 @@ pub fn incident_disk(projection: Projection, incident: Incident) -> [f64; 2] {
 /// Returns the disk point (right, up; rim at radius 1) of an emergent direction: where its light arrives, seen from
 /// inside the room.
 pub fn emergent_disk(projection: Projection, emergent: Emergent) -> [f64; 2] {
-    Side::Emergent.disk(projection, emergent.through_name())
+    Side::Emergent.disk(projection, emergent.undeviated_incident())
 }
 
 /// Returns the number of straight pieces by which each arc of a cell of a basis is drawn; each spans 3° of azimuth or
@@ -264,7 +264,7 @@ mod tests {
         let high = Incident(Dir::from_theta_phi(0.8, FRAC_PI_2));
         assert!(incident_disk(p, high)[1] > 0.7);
         // Through a clear pane it leaves downwards.
-        assert!(emergent_disk(p, Emergent::from_through_name(high.0))[1] < -0.7);
+        assert!(emergent_disk(p, Emergent::from_undeviated(high.0))[1] < -0.7);
         // Light that goes up and to façade −x (our right).
         let up_right = Emergent(Dir::new(glam::DVec3::new(-0.4, 0.5, -0.6)).unwrap());
         let [right, up] = emergent_disk(p, up_right);
@@ -306,7 +306,7 @@ mod tests {
             for projection in [Projection::ProjectedSolidAngle, Projection::SolidAngle] {
                 for side in [Side::Incident, Side::Emergent] {
                     let d = Dir::from_theta_phi(theta, phi);
-                    let back = side.through_name(projection, side.disk(projection, d)).unwrap();
+                    let back = side.direction_at(projection, side.disk(projection, d)).unwrap();
                     prop_assert!((back.vector() - d.vector()).length() < 1e-6);
                 }
             }

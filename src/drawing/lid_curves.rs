@@ -53,10 +53,10 @@ pub fn vertical_planes(surface: Surface, peaks: Option<&Peaks>) -> Vec<LidPlane>
     if planes.len() == 1 || surface == Surface::Roof && !planes.iter().any(|plane| same_plane(*plane, along)) {
         planes.push(along);
     }
-    /// Whether two planes are the same; vertical planes of C and C + 180° are.
     planes
 }
 
+/// Whether two planes are the same; vertical planes of C and C + 180° are.
 fn same_plane(a: LidPlane, b: LidPlane) -> bool {
     match (a, b) {
         (LidPlane::Vertical(a), LidPlane::Vertical(b)) => a % 180 == b % 180,

@@ -74,8 +74,8 @@ impl Axis {
     pub fn short_title(&self) -> String {
         self.unit_part().trim_start_matches(" / ").to_owned()
     }
-    /// Returns the unit as it follows the name in a title: " / unit", or nothing where it stands at the ticks.
 
+    /// Returns the unit as it follows the name in a title: " / unit", or nothing where it stands at the ticks.
     fn unit_part(&self) -> String {
         match self.unit {
             Unit::Named(unit) if unit.contains('/') => format!(" / ({unit})"),

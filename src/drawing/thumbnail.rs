@@ -23,14 +23,14 @@ pub fn indicatrix(btdf: &Btdf, incident: Incident) -> Vec<[u8; 4]> {
     let max = scattered.iter().flat_map(|one| &one.q).copied().fold(0.0, f64::max);
     let scale = ColourScale::up_to(max.max(f64::MIN_POSITIVE), true, DECADES, ColourMap::Sequential);
     let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
-    let dot = emergent_disk(PROJECTION, Emergent::from_through_name(incident.0));
+    let dot = emergent_disk(PROJECTION, Emergent::from_undeviated(incident.0));
     let half = 0.5 * SIDE as f64;
     let pixel = |at: usize| {
         let (column, row) = ((at % SIDE) as f64 + 0.5, (at / SIDE) as f64 + 0.5);
         let (right, up) = ((column - half) / half, (half - row) / half);
         let radius = right.hypot(up);
         let inside = 1.0 / radius.max(1.0 + 1e-9);
-        let q = scattered.as_ref().zip(Side::Emergent.through_name(PROJECTION, [right * inside, up * inside]));
+        let q = scattered.as_ref().zip(Side::Emergent.direction_at(PROJECTION, [right * inside, up * inside]));
         let value = q.and_then(|(one, through)| Some(one.q[one.basis.index(through)?])).unwrap_or(0.0);
         let beam = (right - dot[0]).hypot(up - dot[1]);
         let [r, g, b] = match beam {

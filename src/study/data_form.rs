@@ -172,11 +172,11 @@ pub fn compressed(btdf: &Btdf, incident: Incident) -> Result<Formed, NoForm> {
         indicatrix: Indicatrix { basis: basis.clone(), q },
         how: how(made.numbers(), false),
         difference: Some(difference),
-        // Returns the difference of processed luminance coefficients (`made`) from the original ones (`given`). `weights`:
-        // projected solid angles of the emergent patches. [sr]
     })
 }
 
+/// Returns the difference of processed luminance coefficients (`made`) from the original ones (`given`). `weights`:
+/// projected solid angles of the emergent patches. \[sr\]
 fn difference(weights: &[f64], given: &[f64], made: &[f64]) -> Difference {
     let tau: f64 = given.iter().zip(weights).map(|(q, w)| q * w).sum();
     let differences = || given.iter().zip(made).map(|(a, b)| (a - b).abs());

@@ -75,7 +75,7 @@ fn shares(specimen: &dyn OpticalModel, name: Dir<Facade>) -> [f64; 2] {
     [1.0, -1.0].map(|sign| {
         let to = name.vector() * DVec3::new(1.0, sign, 1.0);
         let goes = |beam: &&cfs::compute::system::measure::Beam| {
-            beam.transmitted && beam.names.iter().all(|name| (name.vector() - to).length() < 1e-6)
+            beam.transmitted && beam.directions.iter().all(|name| (name.vector() - to).length() < 1e-6)
         };
         beams.iter().filter(goes).map(|beam| beam.share).sum()
     })
@@ -140,12 +140,12 @@ fn prisms_keep_all_light_in_beams_that_a_closer_look_confirms() {
                 let beams = specimen.beams(name, side);
                 let all: f64 = beams.iter().map(|beam| beam.share).sum();
                 assert!((all - 1.0).abs() < 1e-5, "{angles:?} {k}: {all}");
-                assert!(beams.iter().all(|beam| (beam.names[0].vector().x - name.vector().x).abs() < 1e-12));
+                assert!(beams.iter().all(|beam| (beam.directions[0].vector().x - name.vector().x).abs() < 1e-12));
                 let mut closer = Shares::default();
                 section.beams(name, side, Effort { share: 4e-6, seed: 7, surfaces: 20_000 }, &mut closer);
                 for beam in &beams {
                     let same = |other: &&cfs::compute::system::measure::beams::SharpBeam| {
-                        other.transmitted == beam.transmitted && (other.y - beam.names[0].vector().y).abs() < 1e-8
+                        other.transmitted == beam.transmitted && (other.y - beam.directions[0].vector().y).abs() < 1e-8
                     };
                     let share: f64 = closer.beams.iter().filter(same).map(|other| other.share).sum();
                     assert!((share - beam.share).abs() < 2e-4, "{angles:?} {k}: {share} {beam:?}");

@@ -200,7 +200,7 @@ fn stored_data_keep_their_hash_and_their_rows() {
     assert!(message.contains("1.5 % of the flux") && message.contains("standard room"), "{message}");
     // Values at single points come from the same rows.
     let (d, e) = (before.incident()[40], before.incident()[41]);
-    let emergent = cfs::compute::direction::Emergent::from_through_name(e.0);
+    let emergent = cfs::compute::direction::Emergent::from_undeviated(e.0);
     let cell = after.emergent().index(e.0).unwrap();
     assert_eq!(after.q(d, emergent), after.row(40)[cell]);
 }

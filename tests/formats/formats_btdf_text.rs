@@ -28,12 +28,12 @@ fn light_from_above_right_to_below_left_stays_so() {
             let dataset = file.read(|_, a| if (a - bright).length() < 1e-9 { 0.3 } else { 0.0 });
             let btdf = function(&dataset, component);
             let (incident, name) = names(component, e, bright);
-            let leaving = Emergent::from_through_name(name);
+            let leaving = Emergent::from_undeviated(name);
             assert_eq!(btdf.q(incident, leaving), 0.3, "{component:?} {phi_e} {phi_a}");
             let v = name.vector();
             for wrong in [DVec3::new(-v.x, v.y, v.z), DVec3::new(v.x, -v.y, v.z), DVec3::new(-v.x, -v.y, v.z)] {
                 let other = (wrong - v).length() > 0.3;
-                assert!(!other || btdf.q(incident, Emergent::from_through_name(Dir::from_unit(wrong))) == 0.0);
+                assert!(!other || btdf.q(incident, Emergent::from_undeviated(Dir::from_unit(wrong))) == 0.0);
             }
             if component == Component::TransmissionFront {
                 // In façade vectors, no names: what comes from (+x, +y, +z) leaves where the file says.
@@ -112,7 +112,7 @@ fn values_stay_in_their_places_and_tau_is_their_sum() {
                 for k in 0..*n as usize {
                     let (e, out) = (vector(*t, *p), vector(theta, 360.0 * k as f64 / n));
                     let (incident, name) = names(component, e, out);
-                    let q = btdf.q(incident, Emergent::from_through_name(name));
+                    let q = btdf.q(incident, Emergent::from_undeviated(name));
                     assert_eq!(q, uneven(e, out), "{component:?} θ {t} φ {p} → {theta} {k}");
                     tau += weight * q;
                 }
@@ -212,7 +212,7 @@ fn writes_other_functions_with_their_flux_and_says_what_it_changed() {
     assert!(matches!(&b.scattered, Some(Scattered::Cells(_))));
     for i in matrix.incident().cells() {
         for o in matrix.emergent().cells() {
-            let (e, out) = (Incident(i.centre()), Emergent::from_through_name(o.centre()));
+            let (e, out) = (Incident(i.centre()), Emergent::from_undeviated(o.centre()));
             assert_eq!(a.q(e, out), b.q(e, out));
         }
     }

@@ -52,7 +52,7 @@ fn sources_of_picture(scene: &Scene, session: &Session, eye: &Sensor, side: usiz
             let corner = aperture.surface.facade_from_room(aperture.corner - eye.position);
             let on = through * (corner.z / through.z) - corner;
             if through.z > 0.0 && (0.0..aperture.size[0]).contains(&on.x) && (0.0..aperture.size[1]).contains(&on.y) {
-                let luminance = lid.luminance(Emergent::from_through_name(Dir::from_unit(through)));
+                let luminance = lid.luminance(Emergent::from_undeviated(Dir::from_unit(through)));
                 if luminance > 2000.0 {
                     bright.push((place, to, luminance, solid_angle));
                 }

@@ -245,7 +245,7 @@ fn what_stands_on_the_glass_leaves_the_opening_beside_it() {
         let basis = RingBasis::equal_area(40);
         let by_direction: f64 = basis
             .cells()
-            .map(|cell| cell.projected_solid_angle() * lit.lid.luminance(Emergent::from_through_name(cell.centre())))
+            .map(|cell| cell.projected_solid_angle() * lit.lid.luminance(Emergent::from_undeviated(cell.centre())))
             .sum::<f64>()
             * lit.lid.area();
         assert!((by_direction / left.flux.value - 1.0).abs() < 0.01, "{system}: {by_direction} {:?}", left.flux);

@@ -127,11 +127,7 @@ fn redirecting_lid() -> Lid {
         surface: Surface::Facade,
         size: [2.0, 1.5],
         parts: vec![EmergentLuminance::Cells { basis, luminance }],
-        beams: vec![SunBeam {
-            direction: Emergent::from_through_name(from(42.0, 75.0).0),
-            flux: 2400.0,
-            straight: true,
-        }],
+        beams: vec![SunBeam { direction: Emergent::from_undeviated(from(42.0, 75.0).0), flux: 2400.0, straight: true }],
     }
 }
 

@@ -281,7 +281,7 @@ fn incident_side(
         ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
     let mut choose = |index: usize| out.push(Action::ChooseIncidence(cells.choices[index]));
-    let cell_at = |at| Side::Incident.through_name(projection, disk.disk(at)).and_then(|d| cells.choice(btdf, d));
+    let cell_at = |at| Side::Incident.direction_at(projection, disk.disk(at)).and_then(|d| cells.choice(btdf, d));
     if response.clicked() {
         response.request_focus();
         if let Some(index) = response.interact_pointer_pos().and_then(cell_at) {
@@ -437,7 +437,7 @@ fn emergent_disk_ui(
     ui.painter().add(Shape::Mesh(mesh.clone()));
     let pointed = response
         .hover_pos()
-        .and_then(|at| Side::Emergent.through_name(projection, disk.disk(at)))
+        .and_then(|at| Side::Emergent.direction_at(projection, disk.disk(at)))
         .and_then(|d| basis.index(d));
     let Some(index) = pointed else { return (None, None, response) };
     let cell = basis.cell(index);
@@ -450,7 +450,7 @@ fn emergent_disk_ui(
 /// Draws a dot in the emergent direction of the regularly transmitted light, with the regular transmittance τ.
 fn regular_dot(ui: &Ui, place: &Place, projection: Projection, (from, tau): (Incident, f64), palette: &Palette) {
     let rect = place.rect;
-    let at = place.disk.screen(emergent_disk(projection, Emergent::from_through_name(from.0)));
+    let at = place.disk.screen(emergent_disk(projection, Emergent::from_undeviated(from.0)));
     ui.painter().circle(at, 5.0, palette.beam, Stroke::new(1.5, Color32::WHITE));
     let label = say::regular_tau(number(tau, 3));
     let galley = ui.painter().layout_no_wrap(label, egui::FontId::proportional(13.0), palette.ink);
@@ -490,7 +490,7 @@ pub fn csv(input: &Input<'_>) -> String {
     };
     if let Some(Indicatrix { basis, q }) = shown {
         for (cell, q) in basis.cells().zip(q) {
-            let leaving = Emergent::from_through_name(cell.centre()).0;
+            let leaving = Emergent::from_undeviated(cell.centre()).0;
             let (theta, phi) = (leaving.theta().to_degrees(), leaving.phi().to_degrees());
             let _ = writeln!(out, "{theta:.4},{phi:.4},{:.9},{q:.9}", cell.projected_solid_angle());
         }

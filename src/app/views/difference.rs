@@ -108,7 +108,7 @@ fn draw(ui: &mut Ui, rect: Rect, picture: &Picture, input: &Input<'_>, state: &m
             let caption = if *side == Side::Incident { say::OUTSIDE } else { say::INSIDE };
             disk.frame(ui.painter(), PROJECTION, caption.get(), &palette);
             let response = ui.interact(area, ui.scope_id().with("difference"), Sense::hover());
-            let direction = response.hover_pos().and_then(|at| side.through_name(PROJECTION, disk.disk(at)));
+            let direction = response.hover_pos().and_then(|at| side.direction_at(PROJECTION, disk.disk(at)));
             let at = direction.and_then(|direction| cells.basis.index(direction));
             (response, at.map(|cell| Estimate::exact(cells.values[cell])))
         }

@@ -158,7 +158,7 @@ fn picture(ui: &mut Ui, rect: Rect, btdf: &Btdf, input: &Input<'_>, state: &mut 
         let at = disk.screen(incident_disk(PROJECTION, sun));
         ui.painter().circle(at, 6.0, palette.sun, Stroke::new(1.5, Color32::BLACK));
     }
-    let direction = |at| Side::Incident.through_name(PROJECTION, disk.disk(at)).map(Incident);
+    let direction = |at| Side::Incident.direction_at(PROJECTION, disk.disk(at)).map(Incident);
     if response.clicked()
         && let Some(incident) = response.interact_pointer_pos().and_then(direction)
     {
@@ -214,7 +214,7 @@ fn map_mesh(disk: &Disk, btdf: &Btdf, basis: &RingBasis, scale: &ColourScale) ->
         }
         _ => disk.smooth(|p| {
             // Just inside the rim: rounding may put a point of the rim where there is no direction.
-            let d = Side::Incident.through_name(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
+            let d = Side::Incident.direction_at(PROJECTION, [0.999_999 * p[0], 0.999_999 * p[1]]);
             scale.colour(d.map_or(0.0, |d| btdf.tau(Incident(d))))
         }),
     }

@@ -99,7 +99,7 @@ impl CellMatrix {
     /// Returns the luminance coefficient q of the cells that contain an incident and an emergent direction; 0 outside
     /// all cells. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
-        match (self.incident.index(incident.0), self.emergent.index(emergent.through_name())) {
+        match (self.incident.index(incident.0), self.emergent.index(emergent.undeviated_incident())) {
             (Some(i), Some(o)) => self.value(i, o),
             _ => 0.0,
         }
@@ -166,7 +166,7 @@ mod tests {
         assert!(clear.tau_by_cell().iter().all(|tau| (tau - 1.0).abs() < 1e-12));
         assert!((clear.tau_hemispherical() - 1.0).abs() < 1e-12);
         let sun = Incident(Dir::from_theta_phi(0.7, 1.1));
-        assert!(clear.q(sun, Emergent::from_through_name(sun.0)) > 0.0);
+        assert!(clear.q(sun, Emergent::from_undeviated(sun.0)) > 0.0);
         // Uniform luminance stays uniform.
         let e: Vec<f64> = weight.iter().map(|w| 1000.0 * w).collect();
         assert!(clear.luminance(&e).iter().all(|l| (l - 1000.0).abs() < 1e-9));

@@ -164,7 +164,7 @@ impl Indicatrices {
     /// Returns the luminance coefficient q without interpolation, of the incident direction of the data that represents
     /// `incident`. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
-        match (self.standing_for(incident.0), self.emergent.index(emergent.through_name())) {
+        match (self.standing_for(incident.0), self.emergent.index(emergent.undeviated_incident())) {
             (Some(i), Some(o)) => self.rows.value(i, o, self.emergent.len()),
             _ => 0.0,
         }

@@ -105,7 +105,7 @@ fn four(btdf: &Btdf, axes: TreeAxes, grid: SquareGrid, codes: &Codes) -> Vec<f64
             let mut row: Vec<f64> = grid
                 .cells()
                 .map(|cell| {
-                    let each = cell.samples(2).map(Emergent::from_through_name);
+                    let each = cell.samples(2).map(Emergent::from_undeviated);
                     each.map(|out| incident.iter().map(|&from| tree.q(from, out)).sum::<f64>()).sum::<f64>() / 16.0
                 })
                 .collect();

@@ -210,16 +210,17 @@ impl TensorTree {
     /// Returns the luminance coefficient q of the leaf that contains an incident and an emergent direction; 0 for
     /// directions on the wrong side. \[1/sr\]
     pub fn q(&self, incident: Incident, emergent: Emergent) -> f64 {
-        let (Some(incident), Some(twin)) = (self.disk(incident.0), self.disk(emergent.through_name())) else {
+        let (Some(incident), Some(undeviated)) = (self.disk(incident.0), self.disk(emergent.undeviated_incident()))
+        else {
             return 0.0;
         };
         match self.rank {
             TreeRank::Four => {
-                let ([a, b], [c, d]) = (square_from_disk(incident), square_from_disk(twin));
+                let ([a, b], [c, d]) = (square_from_disk(incident), square_from_disk(undeviated));
                 self.leaf(&[a, b, c, d])
             }
             TreeRank::Three => {
-                let [c, d] = square_from_disk(rotate(twin, -incident[1].atan2(incident[0])));
+                let [c, d] = square_from_disk(rotate(undeviated, -incident[1].atan2(incident[0])));
                 self.leaf(&[radial_coordinate(incident), c, d])
             }
         }

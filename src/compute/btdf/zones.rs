@@ -22,8 +22,8 @@ pub fn zone_shares<const N: usize>(btdf: &Btdf, incident: Incident, up: DVec3, l
     let mut shares = vec![0.0; N + 1];
     let sines = limits.map(f64::sin);
     // A direction of undeviated light is opposite to the propagation: above the horizon, light goes down.
-    let zone = |through_name: DVec3| {
-        let elevation = -through_name.dot(up);
+    let zone = |incident: DVec3| {
+        let elevation = -incident.dot(up);
         sines.iter().position(|sine| elevation >= *sine).unwrap_or(N)
     };
     if let Some(regular) = &btdf.regular {

@@ -35,13 +35,13 @@ impl Ways {
     pub fn of(btdf: &Btdf, incident: Incident) -> Option<Self> {
         let half = |value: f64| if value.abs() < 1e-9 { 0.5 } else { f64::from(u8::from(value > 0.0)) };
         let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
-        let straight = Emergent::from_through_name(incident.0).0.vector();
+        let straight = Emergent::from_undeviated(incident.0).0.vector();
         // The façade frame's x runs right seen from outside.
         let (mut sum, mut up, mut right) = (regular, regular * half(straight.y), regular * half(-straight.x));
         if let Some(Indicatrix { basis, q }) = btdf.indicatrix(incident) {
             for (cell, q) in basis.cells().zip(q) {
                 let flux = q * cell.projected_solid_angle();
-                let way = Emergent::from_through_name(cell.centre()).0.vector();
+                let way = Emergent::from_undeviated(cell.centre()).0.vector();
                 // A cap about the normal is half above and half below.
                 let (y, x) = if cell.is_cap() { (0.0, 0.0) } else { (way.y, way.x) };
                 sum += flux;

@@ -18,7 +18,7 @@ pub fn add_emitted(field: &Field, aperture: usize, emission: &Emission, facing: 
     // A luminance does not depend on the size of the aperture.
     let lid = scattered.lid(facing, [1.0; 2]);
     for (sum, patch) in luminance[range.clone()].iter_mut().zip(&field.patches[range]) {
-        *sum += lid.luminance(Emergent::from_through_name(patch.through));
+        *sum += lid.luminance(Emergent::from_undeviated(patch.through));
     }
 }
 

@@ -97,14 +97,14 @@ fn rim(sun: Dir<Facade>, aside: DVec3) -> [Dir<Facade>; 2] {
     [aside, -aside].map(|aside| Dir::new(sun.vector() + aside).unwrap_or(sun))
 }
 
-pub(super) fn cosine(name: Dir<Facade>) -> f64 {
-    name.vector().z.max(0.0)
+pub(super) fn cosine(direction: Dir<Facade>) -> f64 {
+    direction.vector().z.max(0.0)
 }
 
 /// Part of the sun's disc: its direction, its share of the disc's solid angle, that share times its cosine of
 /// incidence, and the beams that its light becomes.
 struct Part {
-    name: Dir<Facade>,
+    direction: Dir<Facade>,
     weight: f64,
     flux: f64,
     /// Share of the part's light that is transmitted undeviated.
@@ -113,11 +113,12 @@ struct Part {
 }
 
 impl Part {
-    /// Computes the beams that light from the direction `name` becomes, divided into undeviated and redirected ones.
-    fn new(model: &dyn OpticalModel, name: Dir<Facade>, weight: f64, flux: f64) -> Self {
-        let mut part = Self { name, weight, flux, straight: 0.0, turned: Vec::new() };
-        for beam in model.beams_about(name, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
-            if beam.names.iter().all(|other| other.vector().distance(name.vector()) <= SAME) {
+    /// Computes the beams that light from the direction `direction` becomes, divided into undeviated and redirected
+    /// ones.
+    fn new(model: &dyn OpticalModel, direction: Dir<Facade>, weight: f64, flux: f64) -> Self {
+        let mut part = Self { direction, weight, flux, straight: 0.0, turned: Vec::new() };
+        for beam in model.beams_about(direction, Side::Front, ABOUT).into_iter().filter(|beam| beam.transmitted) {
+            if beam.directions.iter().all(|other| other.vector().distance(direction.vector()) <= SAME) {
                 part.straight += beam.share;
             } else {
                 part.turned.push(beam);
@@ -133,20 +134,20 @@ impl Part {
 
 /// Divides directions of the sun's disc into strips of about the same profile angle, each as (middle direction, number
 /// of directions, sum of their cosines of incidence). `upright`: profile angle to the right instead of upwards.
-fn strips(names: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
-    let angle = |name: &Dir<Facade>| {
-        let v = name.vector();
+fn strips(directions: &[Dir<Facade>], upright: bool, count: usize) -> Vec<(Dir<Facade>, f64, f64)> {
+    let angle = |direction: &Dir<Facade>| {
+        let v = direction.vector();
         (if upright { v.x } else { v.y }).atan2(v.z)
     };
-    let angles: Vec<f64> = names.iter().map(angle).collect();
+    let angles: Vec<f64> = directions.iter().map(angle).collect();
     let (low, high) = angles
         .iter()
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), angle| (low.min(*angle), high.max(*angle)));
     let mut sums = vec![(DVec3::ZERO, 0.0, 0.0); count];
-    for (name, angle) in names.iter().zip(angles) {
+    for (direction, angle) in directions.iter().zip(angles) {
         let at = (count as f64 * (angle - low) / (high - low).max(f64::MIN_POSITIVE)) as usize;
         let sum = &mut sums[at.min(count - 1)];
-        *sum = (sum.0 + name.vector(), sum.1 + 1.0, sum.2 + cosine(*name));
+        *sum = (sum.0 + direction.vector(), sum.1 + 1.0, sum.2 + cosine(*direction));
     }
     sums.into_iter().filter_map(|(sum, count, cosines)| Some((Dir::new(sum)?, count, cosines))).collect()
 }
@@ -157,7 +158,7 @@ pub(super) fn sun_beams(model: &dyn OpticalModel, facing: &Facing<'_>) -> Vec<Be
     if let Structure::Along { upright } = model.structure() {
         return beams_by_strips(model, facing, sun, upright);
     }
-    let asked = |name: &Dir<Facade>| Part::new(model, *name, 1.0, cosine(*name));
+    let asked = |direction: &Dir<Facade>| Part::new(model, *direction, 1.0, cosine(*direction));
     let few: Vec<Part> = if is_whole(facing, sun) {
         let (u, v) = sun.vector().any_orthonormal_pair();
         match by_middle(model, facing, sun, &[u, v]) {
@@ -195,9 +196,9 @@ fn by_middle(
 ) -> Result<Vec<BeamLight>, Vec<Part>> {
     /// Weight of a point of the rim. Two opposite ones have the second moment of the disc of radius r, 2 · r²/8 = r²/4.
     const RIM: f64 = 0.125;
-    let asked = |name: Dir<Facade>, weight: f64| Part::new(model, name, weight, weight * cosine(name));
+    let asked = |direction: Dir<Facade>, weight: f64| Part::new(model, direction, weight, weight * cosine(direction));
     let mut parts = vec![asked(sun, 1.0 - 2.0 * RIM * asides.len() as f64)];
-    parts.extend(asides.iter().flat_map(|aside| rim(sun, *aside)).map(|name| asked(name, RIM)));
+    parts.extend(asides.iter().flat_map(|aside| rim(sun, *aside)).map(|direction| asked(direction, RIM)));
     let own = parts[0].shares();
     let bent = [0, 1].map(|k| {
         let pair = |pair: &[Part]| RIM * (pair[0].shares()[k] + pair[1].shares()[k] - 2.0 * own[k]).abs();
@@ -229,11 +230,11 @@ fn beams_by_strips(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facad
     }
     let mut beams = Vec::new();
     for (round, [count, pairs]) in STRIPS.into_iter().enumerate() {
-        let names = disc(facing, sun, pairs);
-        let whole = names.len() == 2 * pairs;
-        let parts: Vec<Part> = strips(&names, upright, count)
+        let directions = disc(facing, sun, pairs);
+        let whole = directions.len() == 2 * pairs;
+        let parts: Vec<Part> = strips(&directions, upright, count)
             .into_iter()
-            .map(|(name, weight, flux)| Part::new(model, name, weight, flux))
+            .map(|(direction, weight, flux)| Part::new(model, direction, weight, flux))
             .collect();
         // Beams at the middle of a strip represent the whole strip.
         let flux: f64 = parts.iter().map(|part| part.flux).sum();
@@ -269,7 +270,7 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
     let seen = parts.iter().map(|part| part.weight * part.straight).sum::<f64>() / weight;
     // If the system transmits parts of the disc unequally, the beam's middle differs from the disc's. A partly hidden
     // disc is cut by the obstruction later.
-    let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.name.vector()).sum();
+    let centre: DVec3 = parts.iter().map(|part| part.weight * part.straight * part.direction.vector()).sum();
     (share > 0.0).then(|| BeamLight {
         to: if whole { Dir::new(centre).unwrap_or(sun) } else { sun },
         exitance: share * facing.sun_illuminance(),
@@ -284,18 +285,18 @@ fn straight(facing: &Facing<'_>, sun: Dir<Facade>, parts: &[Part], whole: bool, 
 fn straight_by_seeds(model: &dyn OpticalModel, facing: &Facing<'_>, sun: Dir<Facade>) -> Option<BeamLight> {
     let mut found: Option<BeamLight> = None;
     for (round, seeds) in SEEDS.into_iter().enumerate() {
-        let names = disc(facing, sun, seeds);
-        let part = |name: &Dir<Facade>| Part {
-            name: *name,
+        let directions = disc(facing, sun, seeds);
+        let part = |direction: &Dir<Facade>| Part {
+            direction: *direction,
             weight: 1.0,
-            flux: cosine(*name),
-            straight: model.straight(*name, Side::Front),
+            flux: cosine(*direction),
+            straight: model.straight(*direction, Side::Front),
             turned: Vec::new(),
         };
-        let parts: Vec<Part> = names.iter().map(part).collect();
+        let parts: Vec<Part> = directions.iter().map(part).collect();
         let exitance = |beam: Option<BeamLight>| beam.map_or(0.0, |beam| beam.exitance);
         let before = exitance(found);
-        found = straight(facing, sun, &parts, names.len() == 2 * seeds, 0.0);
+        found = straight(facing, sun, &parts, directions.len() == 2 * seeds, 0.0);
         let now = exitance(found);
         let change = (now - before).abs();
         if let Some(beam) = &mut found {
@@ -325,7 +326,7 @@ struct Pieces(BTreeMap<[i64; 2], (DVec3, f64, bool)>);
 
 impl Pieces {
     fn add(&mut self, beam: &Beam, incident: f64) {
-        let [a, b] = beam.names.map(Dir::vector);
+        let [a, b] = beam.directions.map(Dir::vector);
         let count = (a.angle_between(b) / PIECE).ceil().max(1.0) as usize;
         for k in 0..count {
             let to = a.lerp(b, (k as f64 + 0.5) / count as f64).normalize_or_zero();

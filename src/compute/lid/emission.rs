@@ -315,17 +315,20 @@ impl Emission {
         if let Some(tau) = &self.regular {
             let tau = tau.clone();
             let (orientation, surface) = (facing.orientation, facing.surface);
-            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
-                let world = orientation.world_from_room(surface.room_dir(twin));
-                tau.at(twin.theta()) * seen.iter().map(|(share, outside)| share * outside.luminance(world)).sum::<f64>()
+            parts.push(EmergentLuminance::Function(Arc::new(move |undeviated: Dir<Facade>| {
+                let world = orientation.world_from_room(surface.room_dir(undeviated));
+                tau.at(undeviated.theta())
+                    * seen.iter().map(|(share, outside)| share * outside.luminance(world)).sum::<f64>()
             })));
         }
         if let Some(lamps) = self.lamps.clone() {
-            parts.push(EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| lamps.luminance(twin))));
+            parts.push(EmergentLuminance::Function(Arc::new(move |undeviated: Dir<Facade>| {
+                lamps.luminance(undeviated)
+            })));
         }
         let area = size[0] * size[1];
         let beam = |beam: &BeamLight| SunBeam {
-            direction: Emergent::from_through_name(beam.to),
+            direction: Emergent::from_undeviated(beam.to),
             flux: beam.exitance * area,
             straight: beam.straight,
         };

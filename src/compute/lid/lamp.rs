@@ -79,14 +79,14 @@ impl Lamps {
         self.list.iter().map(|lamp| lamp.illuminance(position, normal)).sum()
     }
 
-    /// Returns the mean luminance of the replaced aperture for light that leaves in the direction −`twin` (façade
-    /// frame); `twin` is the direction of undeviated light. \[cd/m²\]
-    pub fn luminance(&self, twin: Dir<Facade>) -> f64 {
-        let cosine = twin.vector().z;
+    /// Returns the mean luminance of the replaced aperture for light that leaves in the direction −`undeviated` (façade
+    /// frame); `undeviated` is the direction of undeviated light. \[cd/m²\]
+    pub fn luminance(&self, undeviated: Dir<Facade>) -> f64 {
+        let cosine = undeviated.vector().z;
         if cosine <= 1e-9 {
             return 0.0;
         }
-        let emergent = Emergent::from_through_name(twin);
+        let emergent = Emergent::from_undeviated(undeviated);
         self.list.iter().map(|lamp| lamp.intensity(emergent)).sum::<f64>() / (self.area * cosine)
     }
 }

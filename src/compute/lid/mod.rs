@@ -73,15 +73,15 @@ impl EmergentLuminance {
     /// Returns the luminance of this component for light that leaves in an emergent direction; 0 for directions to the
     /// outside. \[cd/m²\]
     pub fn at(&self, emergent: Emergent) -> f64 {
-        let twin = emergent.through_name();
-        if twin.vector().z <= 0.0 {
+        let undeviated = emergent.undeviated_incident();
+        if undeviated.vector().z <= 0.0 {
             return 0.0;
         }
         match self {
             Self::Uniform(luminance) => *luminance,
-            Self::Cells { basis, luminance } => basis.index(twin).map_or(0.0, |cell| luminance[cell]),
-            Self::Bands(light) => light.at(twin),
-            Self::Function(luminance) => luminance(twin),
+            Self::Cells { basis, luminance } => basis.index(undeviated).map_or(0.0, |cell| luminance[cell]),
+            Self::Bands(light) => light.at(undeviated),
+            Self::Function(luminance) => luminance(undeviated),
         }
     }
 }

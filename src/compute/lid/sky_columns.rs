@@ -3,7 +3,7 @@
 
 use super::SkyThrough;
 use super::sky_through::{BIN_ERROR, CELL_ERROR, POINTS, Scattered, Turned, band_of};
-use super::structure::{angles, name_of};
+use super::structure::{angles, direction_of};
 use super::sun_through::sun_cells;
 use crate::compute::basis::{Cell, RingBasis, sub_directions};
 use crate::compute::direction::{Dir, Facade};
@@ -39,9 +39,9 @@ pub enum ScatteredRows<'a> {
 /// Returns the index of the first of the two rows between whose profile angles an incident direction lies, and the
 /// weight of the second, 0 … 1. `rows`: number of rows over −90° … 90°; `upright`: profile angle to the right instead
 /// of upwards.
-pub fn between_rows(upright: bool, name: Dir<Facade>, rows: usize) -> (usize, f64) {
+pub fn between_rows(upright: bool, direction: Dir<Facade>, rows: usize) -> (usize, f64) {
     let last = rows.max(2) - 2;
-    let at = (angles(upright, name).1 + FRAC_PI_2) / PI * (rows.max(2) - 1) as f64;
+    let at = (angles(upright, direction).1 + FRAC_PI_2) / PI * (rows.max(2) - 1) as f64;
     let row = (at.max(0.0) as usize).min(last);
     (row, (at - row as f64).clamp(0.0, 1.0))
 }
@@ -90,8 +90,8 @@ impl SkyThrough {
         for (p, patch) in patches.iter_mut().enumerate().filter(|(p, _)| self.straight[*p] > 0.0) {
             patch.cells.push((p, self.straight[p] / weights[p]));
         }
-        let mut turn = |cell: usize, name: Dir<Facade>, share: f64| {
-            if let Some(p) = self.cells.index(name) {
+        let mut turn = |cell: usize, direction: Dir<Facade>, share: f64| {
+            if let Some(p) = self.cells.index(direction) {
                 patches[p].cells.push((cell, share / weights[p]));
             }
         };
@@ -99,14 +99,14 @@ impl SkyThrough {
             Turned::None => {}
             Turned::ByCell(sources) => {
                 for (cell, list) in sources.iter().enumerate() {
-                    list.iter().for_each(|source| turn(cell, source.name, source.share));
+                    list.iter().for_each(|source| turn(cell, source.direction, source.share));
                 }
             }
             Turned::ByProfile { upright, sources } => {
                 for (index, cell) in self.cells.cells().enumerate() {
                     let (along, psi) = angles(*upright, cell.centre());
                     for &(psi, share) in &sources[band_of(psi)] {
-                        turn(index, name_of(*upright, along, psi), share);
+                        turn(index, direction_of(*upright, along, psi), share);
                     }
                 }
             }
@@ -114,9 +114,9 @@ impl SkyThrough {
         let rows = match &self.scattered {
             Scattered::None => return patches,
             Scattered::ByProfile { upright, .. } => {
-                self.rows_of_patches(usize::from(*upright), |name| Some(band_of(angles(*upright, name).1)))
+                self.rows_of_patches(usize::from(*upright), |direction| Some(band_of(angles(*upright, direction).1)))
             }
-            Scattered::ByCells { incident, .. } => self.rows_of_patches(2, |name| incident.index(name)),
+            Scattered::ByCells { incident, .. } => self.rows_of_patches(2, |direction| incident.index(direction)),
         };
         patches.iter_mut().zip(rows.iter()).for_each(|(patch, rows)| patch.rows.clone_from(rows));
         patches

@@ -11,7 +11,7 @@
 //!
 //! Redirected light relies on reciprocity.
 
-use super::structure::{angles, name_of};
+use super::structure::{angles, direction_of};
 use super::sun_through::sun_cells;
 use super::{BandLight, CellLight, Emission, Facing};
 use crate::compute::basis::{RingBasis, sub_directions};
@@ -72,7 +72,7 @@ pub(super) enum Turned {
 
 /// Direction outside that redirected light comes from, and the share of its luminance that is transmitted.
 pub(super) struct Source {
-    pub name: Dir<Facade>,
+    pub direction: Dir<Facade>,
     pub share: f64,
 }
 
@@ -95,23 +95,23 @@ pub(super) fn band_of(psi: f64) -> usize {
 }
 
 /// Returns the beams of light from inside that are transmitted in another direction than undeviated.
-fn turned_back(model: &dyn OpticalModel, name: Dir<Facade>) -> impl Iterator<Item = Beam> {
-    let beams = model.beams_about(name, Side::Back, ABOUT).into_iter();
-    beams.filter(move |beam| beam.transmitted && !is_straight(beam, name) && beam.share > FAINT)
+fn turned_back(model: &dyn OpticalModel, direction: Dir<Facade>) -> impl Iterator<Item = Beam> {
+    let beams = model.beams_about(direction, Side::Back, ABOUT).into_iter();
+    beams.filter(move |beam| beam.transmitted && !is_straight(beam, direction) && beam.share > FAINT)
 }
 
 /// Returns the share of light from outside that is transmitted undeviated.
-fn straight_about(model: &dyn OpticalModel, name: Dir<Facade>) -> f64 {
-    let beams = model.beams_about(name, Side::Front, ABOUT).into_iter();
-    beams.filter(|beam| beam.transmitted && is_straight(beam, name)).map(|beam| beam.share).sum()
+fn straight_about(model: &dyn OpticalModel, direction: Dir<Facade>) -> f64 {
+    let beams = model.beams_about(direction, Side::Front, ABOUT).into_iter();
+    beams.filter(|beam| beam.transmitted && is_straight(beam, direction)).map(|beam| beam.share).sum()
 }
 
-fn is_straight(beam: &Beam, name: Dir<Facade>) -> bool {
-    beam.names.iter().all(|other| other.vector().distance(name.vector()) < SAME)
+fn is_straight(beam: &Beam, direction: Dir<Facade>) -> bool {
+    beam.directions.iter().all(|other| other.vector().distance(direction.vector()) < SAME)
 }
 
 fn centre(beam: &Beam) -> DVec3 {
-    beam.names[0].vector() + beam.names[1].vector()
+    beam.directions[0].vector() + beam.directions[1].vector()
 }
 
 /// Interpolated undeviated share of systems whose structure is endless along an axis: sharp in the profile angle,
@@ -134,15 +134,15 @@ impl StraightLattice {
             .into_par_iter()
             .map(|row| {
                 let along = (0.99 * FRAC_PI_2 * row as f64 / ALONG as f64).sin();
-                let share = |band: usize| straight_about(model, name_of(upright, along, middle(band)));
+                let share = |band: usize| straight_about(model, direction_of(upright, along, middle(band)));
                 (0..BANDS).map(share).collect()
             })
             .collect();
         Some(Self { upright, rows })
     }
 
-    fn share(&self, name: Dir<Facade>) -> f64 {
-        let (along, psi) = angles(self.upright, name);
+    fn share(&self, direction: Dir<Facade>) -> f64 {
+        let (along, psi) = angles(self.upright, direction);
         let at = |value: f64, last: usize| {
             let value = value.clamp(0.0, last as f64);
             let first = (value as usize).min(last - 1);
@@ -165,14 +165,14 @@ impl SkyThrough {
     fn on(model: &dyn OpticalModel, cells: Arc<RingBasis>) -> Self {
         // Quantities that are computed once for all directions are computed first, so that parallel threads do not wait
         // for them.
-        let ahead = name_of(false, 0.0, 0.0);
+        let ahead = direction_of(false, 0.0, 0.0);
         if model.profile_light(ahead, Side::Front).is_none() {
             model.scattered_through(ahead, Side::Front, &cells);
         }
         let list: Vec<_> = cells.cells().collect();
         let lattice = StraightLattice::new(model);
-        let share = |name: Dir<Facade>| {
-            lattice.as_ref().map_or_else(|| model.straight(name, Side::Front), |lattice| lattice.share(name))
+        let share = |direction: Dir<Facade>| {
+            lattice.as_ref().map_or_else(|| model.straight(direction, Side::Front), |lattice| lattice.share(direction))
         };
         let straight = list
             .par_iter()
@@ -209,8 +209,8 @@ impl SkyThrough {
             }
             Scattered::ByCells { incident, rows, error } => {
                 let mut by_cell = vec![0.0; incident.len()];
-                spread(cells, &values, |name, e| {
-                    if let Some(cell) = incident.index(name) {
+                spread(cells, &values, |direction, e| {
+                    if let Some(cell) = incident.index(direction) {
                         by_cell[cell] += e;
                     }
                 });
@@ -240,14 +240,14 @@ impl SkyThrough {
 fn spread(cells: &RingBasis, illuminance: &[f64], mut lay: impl FnMut(Dir<Facade>, f64)) {
     for (cell, e) in cells.cells().zip(illuminance).filter(|(_, e)| **e > 0.0) {
         let each = e / (POINTS * POINTS) as f64;
-        sub_directions(&cell, POINTS).for_each(|name| lay(name, each));
+        sub_directions(&cell, POINTS).for_each(|direction| lay(direction, each));
     }
 }
 
 /// Computes bands of emergent light from illuminance by bands of incidence.
 fn through_bands(upright: bool, rows: &[ProfileLight], cells: &RingBasis, illuminance: &[f64]) -> Option<BandLight> {
     let mut incident = vec![0.0; BANDS];
-    spread(cells, illuminance, |name, e| incident[band_of(angles(upright, name).1)] += e);
+    spread(cells, illuminance, |direction, e| incident[band_of(angles(upright, direction).1)] += e);
     let mut sum = ProfileLight { upright, q: vec![0.0; rows.first()?.q.len()], error: 0.0 };
     for (row, e) in rows.iter().zip(&incident) {
         sum.q.iter_mut().zip(&row.q).for_each(|(sum, q)| *sum += q * e);
@@ -265,9 +265,9 @@ impl Turned {
                 .map(|band| {
                     // A fan consists of many pieces: pieces with about the same profile angle become one source.
                     let mut bins = std::collections::BTreeMap::<i64, (f64, f64)>::new();
-                    for beam in turned_back(model, name_of(upright, 0.0, middle(band))) {
-                        let Some(name) = Dir::new(centre(&beam)) else { continue };
-                        let psi = angles(upright, name).1;
+                    for beam in turned_back(model, direction_of(upright, 0.0, middle(band))) {
+                        let Some(direction) = Dir::new(centre(&beam)) else { continue };
+                        let psi = angles(upright, direction).1;
                         let bin = bins.entry((psi / BIN).round() as i64).or_default();
                         *bin = (bin.0 + beam.share * psi, bin.1 + beam.share);
                     }
@@ -281,7 +281,7 @@ impl Turned {
         let sources: Vec<Vec<Source>> = list
             .par_iter()
             .map(|cell| {
-                let source = |beam: Beam| Some(Source { name: Dir::new(centre(&beam))?, share: beam.share });
+                let source = |beam: Beam| Some(Source { direction: Dir::new(centre(&beam))?, share: beam.share });
                 turned_back(model, cell.centre()).filter_map(source).collect()
             })
             .collect();
@@ -296,11 +296,11 @@ impl Turned {
             .map(|(index, cell)| match self {
                 Self::None => 0.0,
                 Self::ByCell(sources) => {
-                    sources[index].iter().map(|source| source.share * facing.luminance(source.name)).sum()
+                    sources[index].iter().map(|source| source.share * facing.luminance(source.direction)).sum()
                 }
                 Self::ByProfile { upright, sources } => {
                     let (along, psi) = angles(*upright, cell.centre());
-                    let of = |(psi, share): &(f64, f64)| share * facing.luminance(name_of(*upright, along, *psi));
+                    let of = |(psi, share): &(f64, f64)| share * facing.luminance(direction_of(*upright, along, *psi));
                     sources[band_of(psi)].iter().map(of).sum()
                 }
             })
@@ -310,9 +310,9 @@ impl Turned {
 
 impl Scattered {
     fn new(model: &dyn OpticalModel, cells: &RingBasis) -> Self {
-        let upright = model.profile_light(name_of(false, 0.0, 0.0), Side::Front).map(|light| light.upright);
+        let upright = model.profile_light(direction_of(false, 0.0, 0.0), Side::Front).map(|light| light.upright);
         if let Some(upright) = upright {
-            let row = |band: usize| model.profile_light(name_of(upright, 0.0, middle(band)), Side::Front);
+            let row = |band: usize| model.profile_light(direction_of(upright, 0.0, middle(band)), Side::Front);
             let rows: Option<Vec<ProfileLight>> = (0..BANDS).into_par_iter().map(row).collect();
             if let Some(rows) = rows {
                 return Self::ByProfile { upright, rows };

@@ -37,18 +37,18 @@ fn standing_for(facing: &Facing<'_>, sun: Dir<Facade>) -> Vec<Dir<Facade>> {
 fn by_profile(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<BandLight> {
     let illuminance = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| illuminance > 0.0)?;
-    let names = standing_for(facing, sun);
-    let cosines: f64 = names.iter().map(|name| name.vector().z.max(0.0)).sum();
+    let directions = standing_for(facing, sun);
+    let cosines: f64 = directions.iter().map(|direction| direction.vector().z.max(0.0)).sum();
     let mut mean: Option<ProfileLight> = None;
-    for name in &names {
-        let weight = name.vector().z.max(0.0) / cosines;
-        let own = model.profile_light(*name, Side::Front)?;
+    for direction in &directions {
+        let weight = direction.vector().z.max(0.0) / cosines;
+        let own = model.profile_light(*direction, Side::Front)?;
         let sum = mean.get_or_insert_with(|| ProfileLight { q: vec![0.0; own.q.len()], error: 0.0, ..own });
         sum.q.iter_mut().zip(&own.q).for_each(|(sum, q)| *sum += weight * q);
         sum.error += weight * own.error;
     }
     let mut light = mean?;
-    if names.len() > 1 {
+    if directions.len() > 1 {
         // Near grazing incidence the disc covers several degrees of profile angle: a few directions represent it.
         let middle = model.profile_light(sun, Side::Front)?;
         light.error += middle.difference(&light);
@@ -57,9 +57,9 @@ fn by_profile(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<BandLight
 }
 
 /// Returns q \[1/sr\] on [`sun_cells`] of the light that a described system scatters into the room from the incident
-/// direction `name`, and its relative error.
-pub fn scattered_of(model: &dyn OpticalModel, name: Dir<Facade>) -> (Vec<f64>, f64) {
-    let light = model.scattered_through(name, Side::Front, sun_cells());
+/// direction `direction`, and its relative error.
+pub fn scattered_of(model: &dyn OpticalModel, direction: Dir<Facade>) -> (Vec<f64>, f64) {
+    let light = model.scattered_through(direction, Side::Front, sun_cells());
     let share: f64 = light.transmitted.iter().zip(sun_cells().projected_solid_angles()).map(|(q, w)| q * w).sum();
     let relative = if share > 0.0 { light.error / share } else { 0.0 };
     (light.transmitted, relative + CELL_ERROR)
@@ -71,9 +71,11 @@ fn scattered(model: &dyn OpticalModel, facing: &Facing<'_>) -> Option<CellLight>
     let incident = facing.sun_illuminance();
     let sun = facing.sun_direction().filter(|_| incident > 0.0)?;
     let cells = sun_cells();
-    let names = standing_for(facing, sun);
-    let lights: Vec<(ScatteredLight, f64)> =
-        names.iter().map(|name| (model.scattered_through(*name, Side::Front, cells), cosine(*name))).collect();
+    let directions = standing_for(facing, sun);
+    let lights: Vec<(ScatteredLight, f64)> = directions
+        .iter()
+        .map(|direction| (model.scattered_through(*direction, Side::Front, cells), cosine(*direction)))
+        .collect();
     let cosines: f64 = lights.iter().map(|(_, cosine)| cosine).sum();
     let mut luminance = vec![0.0; cells.len()];
     let mut error = 0.0;
@@ -119,9 +121,12 @@ impl SunThrough {
     /// with their shares of the illuminance by the sun.
     pub fn standing_for(facing: &Facing<'_>) -> Vec<(Dir<Facade>, f64)> {
         let Some(sun) = facing.sun_direction() else { return Vec::new() };
-        let names = standing_for(facing, sun);
-        let cosines: f64 = names.iter().map(|name| cosine(*name)).sum();
-        names.into_iter().map(|name| (name, cosine(name) / cosines.max(f64::MIN_POSITIVE))).collect()
+        let directions = standing_for(facing, sun);
+        let cosines: f64 = directions.iter().map(|direction| cosine(*direction)).sum();
+        directions
+            .into_iter()
+            .map(|direction| (direction, cosine(direction) / cosines.max(f64::MIN_POSITIVE)))
+            .collect()
     }
 
     /// Returns the beams of direct sun behind the system.

@@ -99,13 +99,13 @@ impl DirectionalTransmittance {
         let weights = emergent.projected_solid_angles();
         let at = |psi: f64| {
             let (sin, cos) = psi.sin_cos();
-            let name = Dir::from_unit(if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) });
-            let beams = model.beams(name, Side::Front);
+            let direction = Dir::from_unit(if upright { DVec3::new(sin, 0.0, cos) } else { DVec3::new(0.0, sin, cos) });
+            let beams = model.beams(direction, Side::Front);
             let beams: f64 = beams.iter().filter(|beam| beam.transmitted).map(|beam| beam.share).sum();
-            match model.profile_light(name, Side::Front) {
+            match model.profile_light(direction, Side::Front) {
                 Some(light) => (beams + light.share(), light.error),
                 None => {
-                    let light = model.scattered(name, Side::Front, &emergent).transmitted;
+                    let light = model.scattered(direction, Side::Front, &emergent).transmitted;
                     (beams + light.iter().zip(&weights).map(|(q, w)| q * w).sum::<f64>(), 0.0)
                 }
             }

@@ -72,7 +72,7 @@ pub fn indicatrix(
     drawing.add(Shape::text(at, caption, inks.ink));
     let regular = btdf.regular.as_ref().map_or(0.0, |regular| regular.at(incident.0.theta()));
     if regular > 0.0 && incident.0.vector().z > 0.0 {
-        let at = round.place(emergent_disk(PROJECTION, Emergent::from_through_name(incident.0)));
+        let at = round.place(emergent_disk(PROJECTION, Emergent::from_undeviated(incident.0)));
         drawing.add(Shape::dot(at, 5.0, inks.beam));
         drawing.add(Shape::ring(at, 5.0, [255; 3], 1.5));
         let words = texts::regular_tau(number(regular, 3));
@@ -174,7 +174,7 @@ pub(super) fn transmittance(
             round.cells((PROJECTION, Side::Incident), &basis, |i| scale.rgb(btdf.tau(Incident(basis.cell(i).centre()))))
         }
         _ => round.field(|p| {
-            let d = Side::Incident.through_name(PROJECTION, p);
+            let d = Side::Incident.direction_at(PROJECTION, p);
             scale.rgb(d.map_or(0.0, |d| btdf.tau(Incident(d))))
         }),
     };

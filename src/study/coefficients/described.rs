@@ -35,11 +35,11 @@ pub(super) struct ByAngle {
 }
 
 impl ByAngle {
-    /// Adds the illuminance at the sensors by scattered light from the incident direction `name`, interpolated linearly
-    /// between two profile angles. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums to which
-    /// values and errors are added \[lx\]; errors contain that of the data and that of the interpolation.
-    pub fn add(&self, name: Dir<Facade>, illuminance: f64, light: &mut [f64], errors: &mut [f64]) {
-        let (row, near) = between_rows(self.upright, name, self.rows.len());
+    /// Adds the illuminance at the sensors by scattered light from the incident direction `direction`, interpolated
+    /// linearly between two profile angles. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums
+    /// to which values and errors are added \[lx\]; errors contain that of the data and that of the interpolation.
+    pub fn add(&self, direction: Dir<Facade>, illuminance: f64, light: &mut [f64], errors: &mut [f64]) {
+        let (row, near) = between_rows(self.upright, direction, self.rows.len());
         let (a, b) = (&self.rows[row], &self.rows[row + 1]);
         let before = &self.rows[row.saturating_sub(1)];
         let after = &self.rows[(row + 2).min(self.rows.len() - 1)];
@@ -139,19 +139,19 @@ impl Lattice {
         found
     }
 
-    /// Adds the illuminance at the sensors by scattered light from the incident direction `name`, interpolated between
-    /// nodes. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums to which values and errors are
-    /// added. \[lx\]
+    /// Adds the illuminance at the sensors by scattered light from the incident direction `direction`, interpolated
+    /// between nodes. `illuminance`: illuminance of the aperture \[lx\]; `light`, `errors`: sums to which values and
+    /// errors are added. \[lx\]
     pub fn add(
         &self,
         model: &dyn OpticalModel,
         views: &Views,
-        name: Dir<Facade>,
+        direction: Dir<Facade>,
         illuminance: f64,
         light: &mut [f64],
         errors: &mut [f64],
     ) {
-        let angles = structure_angles(self.upright, name);
+        let angles = structure_angles(self.upright, direction);
         let around = [0, 1].map(|k| Around::new(angles[k].to_degrees() / self.steps[k], 90.0 / self.steps[k]));
         let linear = [0, 1].map(|k: usize| around[k].linear());
         let mut own = vec![0.0; light.len()];

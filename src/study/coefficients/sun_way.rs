@@ -126,11 +126,11 @@ impl ByDescription {
         let model = self.model.0.as_ref();
         let mut sum = SunLight::of(&SunThrough::beams_alone(model, facing), sensors);
         let SunLight { light, errors, .. } = &mut sum;
-        for (name, share) in SunThrough::standing_for(facing) {
+        for (direction, share) in SunThrough::standing_for(facing) {
             let e = share * facing.sun_illuminance();
             match &self.by_angle {
-                Some(by_angle) => by_angle.add(name, e, light, errors),
-                None => self.lattice.add(model, &self.views.cells, name, e, light, errors),
+                Some(by_angle) => by_angle.add(direction, e, light, errors),
+                None => self.lattice.add(model, &self.views.cells, direction, e, light, errors),
             }
         }
         sum

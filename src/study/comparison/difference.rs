@@ -41,7 +41,7 @@ pub struct OnCells {
 pub fn of_q(btdf: &Btdf, base: &Btdf, incident: Incident) -> OnCells {
     let basis = RingBasis::equal_area(RINGS);
     let at = |emergent: Emergent| btdf.q(incident, emergent) - base.q(incident, emergent);
-    let values = basis.cells().map(|cell| at(Emergent::from_through_name(cell.centre()))).collect();
+    let values = basis.cells().map(|cell| at(Emergent::from_undeviated(cell.centre()))).collect();
     OnCells { basis, values }
 }
 

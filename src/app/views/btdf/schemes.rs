@@ -74,7 +74,7 @@ impl<'a> SchemesInput<'a> {
     /// reason why there is no map. `None` if the pointer is in no triangle of the map.
     pub(super) fn reason_at(&self, at: Option<Pos2>, disk: &Disk, projection: Projection) -> Option<Foot> {
         let Some(list) = self.triangles() else { return Some(Foot::from(self.missing())) };
-        let d = Side::Incident.through_name(projection, disk.disk(at?))?;
+        let d = Side::Incident.direction_at(projection, disk.disk(at?))?;
         Some(self.why(list.iter().find(|one| holds(one, d.vector()))?))
     }
 

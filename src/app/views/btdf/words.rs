@@ -57,7 +57,7 @@ pub(super) fn drawn(q: f64, cell: &Cell, weighted: bool) -> f64 {
 /// Returns the text for an emergent direction and its value q or q·cosθ (if `weighted`) \[1/sr\]. `through`: the
 /// direction of undeviated light that emerges in this direction.
 pub(super) fn leaving_text(through: Dir<Facade>, value: f64, weighted: bool) -> Foot {
-    let leaving = Emergent::from_through_name(through);
+    let leaving = Emergent::from_undeviated(through);
     let (theta, phi) = (degrees(through.theta()), degrees(leaving.0.phi()));
     let value = number(value, 3);
     let what = if weighted { "q·cosθ" } else { "q" };

@@ -84,7 +84,7 @@ impl<'a> Sampler<'a> {
                 emergent.index(out).map_or(0.0, |o| values[start + o])
             }
             (Self::Cells { .. }, None) => 0.0,
-            (Self::Other(btdf), _) => btdf.q(Incident(from), Emergent::from_through_name(out)),
+            (Self::Other(btdf), _) => btdf.q(Incident(from), Emergent::from_undeviated(out)),
         }
     }
 }

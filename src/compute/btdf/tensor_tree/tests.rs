@@ -61,7 +61,7 @@ fn tau_is_the_integral_of_q() {
         for (theta, phi) in [(3.0, 20.0), (37.0, 200.0), (71.0, 303.0)] {
             let incident = Incident(direction(theta, phi));
             let sum: f64 =
-                emergent.cells().map(|cell| tree.q(incident, Emergent::from_through_name(cell.centre()))).sum();
+                emergent.cells().map(|cell| tree.q(incident, Emergent::from_undeviated(cell.centre()))).sum();
             let sum = sum * emergent.projected_solid_angle();
             // Rank 3 squares are turned against the sampling grid, so their borders are cut by it.
             let tolerance = if tree.rank() == TreeRank::Four { 1e-12 } else { 5e-3 };
@@ -109,7 +109,7 @@ fn light_of_one_cell_goes_where_q_says() {
             let mut expected = 0.0;
             for incident in source.samples(6) {
                 for cell in fine.cells().filter(|cell| in_quarter(cell.centre().phi())) {
-                    let q = tree.q(Incident(incident), Emergent::from_through_name(cell.centre()));
+                    let q = tree.q(Incident(incident), Emergent::from_undeviated(cell.centre()));
                     expected += q * 100.0 / 36.0 * fine.projected_solid_angle();
                 }
             }
@@ -126,8 +126,8 @@ fn reversing_a_rank_4_tree_exchanges_the_directions() {
         let tree = tree(TreeRank::Four, axes, 11);
         let back = tree.reversed();
         let (a, b) = (direction(33.0, 77.0), direction(61.0, 250.0));
-        let q = tree.q(Incident(a), Emergent::from_through_name(b));
-        assert_eq!(back.q(Incident(b), Emergent::from_through_name(a)), q);
+        let q = tree.q(Incident(a), Emergent::from_undeviated(b));
+        assert_eq!(back.q(Incident(b), Emergent::from_undeviated(a)), q);
         assert!((back.tau_hemispherical() - tree.tau_hemispherical()).abs() < 1e-12);
         assert!(back.reversed().relative_difference(&tree).unwrap() < 1e-15);
         assert!(back.relative_difference(&tree).unwrap() > 0.01);
@@ -153,10 +153,10 @@ fn reversing_a_rank_3_tree_keeps_smooth_functions() {
     for (a, b) in [(direction(20.0, 30.0), direction(50.0, 100.0)), (direction(65.0, 300.0), direction(35.0, 10.0))] {
         // The tree's azimuths run against the façade's.
         let turn = -(b.phi() - a.phi());
-        let got = tree.q(Incident(a), Emergent::from_through_name(b));
+        let got = tree.q(Incident(a), Emergent::from_undeviated(b));
         let expected = q(a.theta().sin(), b.theta().sin(), turn);
         assert!((got / expected - 1.0).abs() < 0.1, "{got} {expected}");
-        let got = front.q(Incident(b), Emergent::from_through_name(a));
+        let got = front.q(Incident(b), Emergent::from_undeviated(a));
         assert!((got / expected - 1.0).abs() < 0.1, "{got} {expected}");
     }
 }
@@ -166,7 +166,7 @@ fn a_rank_3_tree_turns_with_the_light() {
     let tree = tree(TreeRank::Three, TreeAxes::Front, 5);
     for turn in [10.0, 123.0, 290.0] {
         let q = |by: f64| {
-            tree.q(Incident(direction(40.0, 15.0 + by)), Emergent::from_through_name(direction(52.0, 222.0 + by)))
+            tree.q(Incident(direction(40.0, 15.0 + by)), Emergent::from_undeviated(direction(52.0, 222.0 + by)))
         };
         assert_eq!(q(turn), q(0.0));
     }

@@ -205,9 +205,9 @@ impl Grid {
         let angles = self.angles();
         // Flux per area of the aperture and per dC dγ.
         let density = |c: f64, gamma: f64| {
-            let twin = self.aim.direction(c, gamma).through_name();
-            let cos_theta = twin.vector().z;
-            if cos_theta > 0.0 { luminance(twin) * cos_theta * gamma.sin() } else { 0.0 }
+            let undeviated = self.aim.direction(c, gamma).undeviated_incident();
+            let cos_theta = undeviated.vector().z;
+            if cos_theta > 0.0 { luminance(undeviated) * cos_theta * gamma.sin() } else { 0.0 }
         };
         (0..self.planes() * angles)
             .into_par_iter()

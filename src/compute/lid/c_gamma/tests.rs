@@ -79,7 +79,8 @@ fn bands_are_the_function_that_they_stand_for_and_their_flux_is_exact() {
         let bands = ProfileLight { upright, q, error: 0.0 };
         let exact = bands.share() * 1.2;
         let same = bands.clone();
-        let function = lid(vec![EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| same.at(twin)))]);
+        let function =
+            lid(vec![EmergentLuminance::Function(Arc::new(move |undeviated: Dir<Facade>| same.at(undeviated)))]);
         let lid = lid(vec![EmergentLuminance::Bands(bands)]);
         for aim in [Aim::Mounted, Aim::Down] {
             let [table, other] = [&lid, &function].map(|lid| CGammaTable::new(lid, aim, Step::FINE));
@@ -106,7 +107,7 @@ fn cell_flux_is_exact_and_narrow_cells_keep_it() {
         assert!((table.zonal_flux() / exact - 1.0).abs() < 1e-12);
         assert!((table.scaled_by - 1.0).abs() < 5e-4);
         // In the middle of the cell the table has the intensity itself.
-        let (c, gamma) = aim.angles(Emergent::from_through_name(basis.cell(100).centre()));
+        let (c, gamma) = aim.angles(Emergent::from_undeviated(basis.cell(100).centre()));
         let delta = step.degrees().to_radians();
         let node = table.plane((c / delta).round() as usize % table.planes())[(gamma / delta).round() as usize];
         let expected = 5000.0 * 1.2 * basis.cell(100).theta().cos();
@@ -140,8 +141,8 @@ fn beam_keeps_flux_and_direction() {
 #[test]
 fn up_is_up_and_right_is_right() {
     let only = |x: f64, y: f64| {
-        lid(vec![EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
-            let goes = twin.reversed().vector();
+        lid(vec![EmergentLuminance::Function(Arc::new(move |undeviated: Dir<Facade>| {
+            let goes = undeviated.reversed().vector();
             f64::from(goes.x * x > 0.0 && goes.y * y > 0.0)
         }))])
     };
@@ -186,14 +187,14 @@ fn empty_distribution_is_a_table_of_zeros() {
 #[test]
 fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
     let glow = |spot: Dir<Facade>| {
-        EmergentLuminance::Function(Arc::new(move |twin: Dir<Facade>| {
-            50.0 + 9000.0 * ((twin.dot(spot) - 1.0) / 0.02).exp()
+        EmergentLuminance::Function(Arc::new(move |undeviated: Dir<Facade>| {
+            50.0 + 9000.0 * ((undeviated.dot(spot) - 1.0) / 0.02).exp()
         }))
     };
     // Brightest upwards to the right; the beam goes down to the left.
     let spot = Emergent(Dir::new(DVec3::new(0.4, 0.5, -0.77)).unwrap());
     let beam = Emergent(Dir::new(DVec3::new(-0.31, -0.62, -0.72)).unwrap());
-    let scattered = lid(vec![glow(spot.through_name())]);
+    let scattered = lid(vec![glow(spot.undeviated_incident())]);
     let both = Lid { beams: vec![SunBeam { direction: beam, flux: 900.0, straight: true }], ..scattered.clone() };
     let table = CGammaTable::new(&both, Aim::Mounted, Step::for_lid(&both));
     let peaks = Peaks::of(&both);

@@ -103,8 +103,8 @@ fn narrow_scattered_light_is_as_wide_as_the_tile_and_what_it_lights() {
     // A lobe of 2° behind a tile that is seen 5° wide.
     let panel = panel(Surface::Facade, [2.0, 0.0, 2.35], [0.2, 0.2]);
     let to = Emergent(Dir::new(DVec3::new(0.1, -FRAC_PI_4.sin(), -FRAC_PI_4.cos())).unwrap());
-    let spot = to.through_name();
-    let light = move |twin: Dir<Facade>| 40.0 + 1e6 * ((twin.dot(spot) - 1.0) / 3e-4).exp();
+    let spot = to.undeviated_incident();
+    let light = move |undeviated: Dir<Facade>| 40.0 + 1e6 * ((undeviated.dot(spot) - 1.0) / 3e-4).exp();
     let lid = lid(&panel, vec![EmergentLuminance::Function(Arc::new(light))], Vec::new());
     let averaged = Averaged::new(&lid, Aim::Mounted, Step::FINE);
     assert!(averaged.same_for_all(false) && !averaged.same_for_all(true));

@@ -91,7 +91,7 @@ impl<'a> Integrator<'a> {
         let exitance = emission.exitance(facing);
         let relative_error = if exitance.value > 0.0 { exitance.error / exitance.value } else { 0.0 };
         let tables = if let NearField::ProfileTable(cells) = method {
-            let luminance = |twin: Dir<_>| lid.luminance(Emergent::from_through_name(twin));
+            let luminance = |undeviated: Dir<_>| lid.luminance(Emergent::from_undeviated(undeviated));
             Some([cells, cells.div_ceil(2)].map(|n| ProfileTable::new(n, luminance)))
         } else {
             None
@@ -127,8 +127,9 @@ impl<'a> Integrator<'a> {
         let Some(view) = self.aperture.view(sensor.position, sensor.normal) else {
             return DirectLight::default();
         };
-        let luminance =
-            |to: DVec3| Dir::new(to).map_or(0.0, |twin| self.lid.luminance(Emergent::from_through_name(twin)));
+        let luminance = |to: DVec3| {
+            Dir::new(to).map_or(0.0, |undeviated| self.lid.luminance(Emergent::from_undeviated(undeviated)))
+        };
         let diffuse = match (self.method, &self.tables) {
             (NearField::Subdivision(Some(parts)), _) => subdivision::fixed(&view, parts, luminance),
             (NearField::Subdivision(None), _) => subdivision::by_distance(&view, luminance),

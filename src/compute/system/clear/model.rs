@@ -17,14 +17,14 @@ impl Beams for ClearSection {
         false
     }
 
-    /// Traces the light of direction `name` (that of undeviated light) from `side`, and adds the beams that leave to
-    /// `out`, by their directions of undeviated light.
-    fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
+    /// Traces the light of direction `direction` (that of undeviated light) from `side`, and adds the beams that leave
+    /// to `out`, by their directions of undeviated light.
+    fn beams(&self, direction: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares) {
         // Light from outside travels against its through direction, light from inside along it; so do its beams.
         let sign = if side == Side::Front { -1.0 } else { 1.0 };
         out.beams.clear();
         EMISSION.with_borrow_mut(|emission| {
-            self.trace(sign * name.vector(), effort, emission);
+            self.trace(sign * direction.vector(), effort, emission);
             (out.absorbed, out.lost, out.surfaces) = (emission.absorbed, emission.lost, emission.surfaces);
             out.beams.extend(emission.leaving.iter().map(|beam| SharpBeam {
                 share: beam.share,

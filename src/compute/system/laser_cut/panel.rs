@@ -42,10 +42,10 @@ impl Family for CutPanel {
 }
 
 impl Beams for CutPanel {
-    fn beams(&self, name: Dir<Facade>, _: Side, _: Effort, out: &mut Shares) {
+    fn beams(&self, direction: Dir<Facade>, _: Side, _: Effort, out: &mut Shares) {
         out.beams.clear();
-        let shares = self.panel.shares(name, self.cut_loss);
-        let y = name.vector().y;
+        let shares = self.panel.shares(direction, self.cut_loss);
+        let y = direction.vector().y;
         // The panel is the same from both sides; a redirected beam has its vertical component reversed.
         for (share, transmitted, sign) in [
             (shares.straight, true, 1.0),

@@ -80,9 +80,9 @@ impl Effort {
 /// System that does not scatter, but divides light into sharp beams; endless along x and symmetric left to right.
 pub trait Beams: Send + Sync {
     /// Computes the beams that parallel light from `side` becomes and stores them in `out`, which is emptied first.
-    /// `name` is the direction of undeviated light (façade frame, z > 0; see [`super`]); `effort` matters for systems
-    /// that trace very many beams.
-    fn beams(&self, name: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
+    /// `direction` is the direction of undeviated light (façade frame, z > 0; see [`super`]); `effort` matters for
+    /// systems that trace very many beams.
+    fn beams(&self, direction: Dir<Facade>, side: Side, effort: Effort, out: &mut Shares);
 
     /// Whether the beams of a direction are computed in microseconds; `false` where light is traced from surface to
     /// surface.
@@ -150,12 +150,12 @@ impl<B: Beams> OpticalModel for SharpBeams<B> {
         Ok(measure(&self.0, setting, progress)?.made_reciprocal())
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        beams_of(&self.0, name, side, FINE, FAINT[0])
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        beams_of(&self.0, direction, side, FINE, FAINT[0])
     }
 
-    fn beams_about(&self, name: Dir<Facade>, side: Side, _: f64) -> Vec<Beam> {
-        beams_of(&self.0, name, side, COARSE, FAINT[1])
+    fn beams_about(&self, direction: Dir<Facade>, side: Side, _: f64) -> Vec<Beam> {
+        beams_of(&self.0, direction, side, COARSE, FAINT[1])
     }
 
     fn structure(&self) -> Structure {
@@ -172,14 +172,14 @@ impl<B: Beams> OpticalModel for SharpBeams<B> {
     }
 }
 
-fn beams_of(system: &impl Beams, name: Dir<Facade>, side: Side, effort: Effort, faint: f64) -> Vec<Beam> {
+fn beams_of(system: &impl Beams, direction: Dir<Facade>, side: Side, effort: Effort, faint: f64) -> Vec<Beam> {
     let mut shares = Shares::default();
-    system.beams(name, side, effort, &mut shares);
-    let v = name.vector();
+    system.beams(direction, side, effort, &mut shares);
+    let v = direction.vector();
     let beams = shares.beams.iter().map(|beam| {
         let z2 = (1.0 - v.x * v.x - beam.y * beam.y).max(0.0);
-        let to = if beam.y == v.y { name } else { Dir::from_unit(DVec3::new(v.x, beam.y, z2.sqrt())) };
-        Beam { names: [to, to], share: beam.share, transmitted: beam.transmitted }
+        let to = if beam.y == v.y { direction } else { Dir::from_unit(DVec3::new(v.x, beam.y, z2.sqrt())) };
+        Beam { directions: [to, to], share: beam.share, transmitted: beam.transmitted }
     });
     without_faint(merged(beams), faint)
 }
@@ -390,10 +390,10 @@ impl<'a, B: Beams> Bench<'a, B> {
         for number in numbers {
             let at = net(number, base);
             let corner = [0, 1].map(|k| (at[k] * parts[k] as f64) as usize);
-            let name = point(&cell, at[0], at[1]);
-            let (x, y) = (name.vector().x, name.vector().y);
+            let direction = point(&cell, at[0], at[1]);
+            let (x, y) = (direction.vector().x, direction.vector().y);
             let seed = self.seed(side, index, u64::from(number) + 1);
-            self.system.beams(name, side, Effort { share, seed, surfaces: Effort::SURFACES }, &mut shares);
+            self.system.beams(direction, side, Effort { share, seed, surfaces: Effort::SURFACES }, &mut shares);
             let mut total = [0.0; 2];
             for beam in &shares.beams {
                 total[usize::from(!beam.transmitted)] += beam.share;

@@ -16,7 +16,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// 1/90 of a Klems cell of 10°, of which half a part at most falls on the wrong side of a border.
 const PIECE: f64 = 0.002;
 
-/// Computes the mean q of every emergent cell for light from `side` of each of the directions `names`, which are
+/// Computes the mean q of every emergent cell for light from `side` of each of the directions `directions`, which are
 /// directions of undeviated light (see [`super`]). Beams count in the cell that they fall into; light that is neither
 /// transmitted nor reflected counts as absorbed.
 ///
@@ -25,21 +25,21 @@ const PIECE: f64 = 0.002;
 pub fn at_directions(
     model: &dyn OpticalModel,
     side: Side,
-    names: &[Dir<Facade>],
+    directions: &[Dir<Facade>],
     emergent: &RingBasis,
     progress: &dyn Progress,
 ) -> Result<OneSide, Cancelled> {
     let finder = CellFinder::new(emergent);
     let weight = emergent.projected_solid_angles();
     let done = AtomicUsize::new(0);
-    let rows: Vec<OneSide> = names
+    let rows: Vec<OneSide> = directions
         .par_iter()
-        .map(|&name| {
+        .map(|&direction| {
             if progress.cancelled() {
                 return Err(Cancelled);
             }
-            let row = row(model, side, name, emergent, &finder, &weight);
-            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, names.len());
+            let row = row(model, side, direction, emergent, &finder, &weight);
+            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, directions.len());
             Ok(row)
         })
         .collect::<Result<_, Cancelled>>()?;
@@ -63,8 +63,8 @@ pub fn measured_at_directions(
     setting: &Setting<'_>,
     progress: &dyn Progress,
 ) -> Result<Measured, Cancelled> {
-    let names: Vec<_> = setting.incident.cells().map(|cell| cell.centre()).collect();
-    let side = |side| at_directions(model, side, &names, setting.emergent, progress);
+    let directions: Vec<_> = setting.incident.cells().map(|cell| cell.centre()).collect();
+    let side = |side| at_directions(model, side, &directions, setting.emergent, progress);
     let (front, back) = (side(Side::Front)?, side(Side::Back)?);
     Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back })
 }
@@ -91,16 +91,16 @@ impl Measured {
 fn row(
     model: &dyn OpticalModel,
     side: Side,
-    name: Dir<Facade>,
+    direction: Dir<Facade>,
     emergent: &RingBasis,
     finder: &CellFinder,
     weight: &[f64],
 ) -> OneSide {
-    let scattered = model.scattered(name, side, emergent);
+    let scattered = model.scattered(direction, side, emergent);
     let filled = |q: Vec<f64>| if q.is_empty() { vec![0.0; weight.len()] } else { q };
     let mut transmitted = filled(scattered.transmitted);
     let mut reflected = filled(scattered.reflected);
-    for beam in model.beams(name, side) {
+    for beam in model.beams(direction, side) {
         let to = if beam.transmitted { &mut transmitted } else { &mut reflected };
         for piece in pieces(&beam, PIECE) {
             let at = middle(&piece).vector();
@@ -128,16 +128,16 @@ mod tests {
         let sheet = Pane { index: 1.5, thickness: 0.01, absorption: 0.0 };
         let panel = LaserCutPanel { sheet, spacing: 0.007 };
         let cells = front_basis();
-        let names: Vec<_> = RingBasis::tregenza().cells().map(|cell| cell.centre()).collect();
+        let directions: Vec<_> = RingBasis::tregenza().cells().map(|cell| cell.centre()).collect();
         let specimen = SharpBeams(CutPanel { panel, cut_loss: 0.0 });
-        let made = at_directions(&specimen, Side::Back, &names, &cells, &Silent).unwrap();
+        let made = at_directions(&specimen, Side::Back, &directions, &cells, &Silent).unwrap();
         assert!(made.transmitted.len() == 145 * 145 && made.absorbed.len() == 145);
         let weight = cells.projected_solid_angles();
-        for (i, &name) in names.iter().enumerate() {
-            let exact = panel.shares(name, 0.0);
-            let v = name.vector();
+        for (i, &direction) in directions.iter().enumerate() {
+            let exact = panel.shares(direction, 0.0);
+            let v = direction.vector();
             let turned = Dir::from_unit(glam::DVec3::new(v.x, -v.y, v.z));
-            let [straight, deflected] = [name, turned].map(|name| cells.index(name).unwrap());
+            let [straight, deflected] = [direction, turned].map(|direction| cells.index(direction).unwrap());
             let row = &made.transmitted[i * 145..(i + 1) * 145];
             if straight == deflected {
                 continue;

@@ -17,7 +17,7 @@ pub fn merged(beams: impl IntoIterator<Item = Beam>) -> Vec<Beam> {
     let mut placed: Vec<((bool, [i64; 4]), Beam)> = beams
         .into_iter()
         .map(|beam| {
-            let [a, b] = beam.names.map(|name| name.vector());
+            let [a, b] = beam.directions.map(|direction| direction.vector());
             ((beam.transmitted, [a.x, a.y, b.x, b.y].map(place)), beam)
         })
         .collect();
@@ -59,14 +59,14 @@ mod tests {
 
     #[test]
     fn equal_names_make_one_beam_and_the_faintest_go() {
-        let name = |theta: f64| Dir::from_theta_phi(theta, 1.0);
+        let direction = |theta: f64| Dir::from_theta_phi(theta, 1.0);
         let beams = [
-            Beam::through(name(0.5), 0.3),
-            Beam::back(name(0.5), 0.1),
-            Beam::through(name(0.5 + 1e-12), 0.2),
-            Beam::through(name(0.6), 4e-7),
-            Beam::through(name(0.7), 5e-7),
-            Beam { names: [name(0.5), name(0.6)], share: 0.05, transmitted: true },
+            Beam::through(direction(0.5), 0.3),
+            Beam::back(direction(0.5), 0.1),
+            Beam::through(direction(0.5 + 1e-12), 0.2),
+            Beam::through(direction(0.6), 4e-7),
+            Beam::through(direction(0.7), 5e-7),
+            Beam { directions: [direction(0.5), direction(0.6)], share: 0.05, transmitted: true },
         ];
         let made = without_faint(merged(beams), 6e-7);
         let shares: Vec<f64> = made.iter().map(|beam| beam.share).collect();

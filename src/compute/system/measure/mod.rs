@@ -4,7 +4,7 @@
 //! # Directions of undeviated light
 //! Every direction, also a reflected one, is given by its *direction of undeviated light*, a unit vector on the outward
 //! half (z > 0 in the façade frame) that is the same before and after the system for light that passes undeviated, and
-//! also for its mirror image. In the code it is called `name`:
+//! also for its mirror image. In the code it is called `direction`:
 //! * light from outside: lateral part = −(x, y) of the direction in which light **travels**, before and after the
 //!   system, transmitted or reflected (for incident light it is the direction towards the source);
 //! * light from inside: lateral part = +(x, y) of the direction in which light travels.
@@ -130,7 +130,7 @@ impl Structure {
 
 /// Angle below which two directions of undeviated light count as the same. \[rad\] Above all rounding of f64, and
 /// 0.0002″.
-const SAME_NAME: f64 = 1e-9;
+const SAME_DIRECTION: f64 = 1e-9;
 
 /// Optical model of a system: computes its scattering for any direction.
 pub trait OpticalModel: Send + Sync {
@@ -153,16 +153,16 @@ pub trait OpticalModel: Send + Sync {
     }
 
     /// Returns the exact beams that parallel light from `side` becomes: undeviated, redirected and mirrored ones.
-    /// `name` is the direction of undeviated light (see [`self`]), for light from outside the direction towards the
-    /// source. Light that rough mirrors or edges spread is not among the beams.
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam>;
+    /// `direction` is the direction of undeviated light (see [`self`]), for light from outside the direction towards
+    /// the source. Light that rough mirrors or edges spread is not among the beams.
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam>;
 
-    /// Returns the share of parallel light from `side` that is transmitted undeviated; `name`: direction of undeviated
-    /// light.
-    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
-        let same = |other: &Dir<Facade>| other.vector().distance(name.vector()) < SAME_NAME;
-        let on = |beam: &Beam| beam.transmitted && beam.names.iter().all(same);
-        self.beams(name, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
+    /// Returns the share of parallel light from `side` that is transmitted undeviated; `direction`: direction of
+    /// undeviated light.
+    fn straight(&self, direction: Dir<Facade>, side: Side) -> f64 {
+        let same = |other: &Dir<Facade>| other.vector().distance(direction.vector()) < SAME_DIRECTION;
+        let on = |beam: &Beam| beam.transmitted && beam.directions.iter().all(same);
+        self.beams(direction, side).iter().filter(|beam| on(beam)).map(|beam| beam.share).sum()
     }
 
     /// Returns the axis of the structure if scattering depends on the profile angle only, while the direction cosine
@@ -172,10 +172,10 @@ pub trait OpticalModel: Send + Sync {
         None
     }
 
-    /// Returns beams like [`Self::beams`], but for a direction at most `within` \[rad\] from `name`, so that
+    /// Returns beams like [`Self::beams`], but for a direction at most `within` \[rad\] from `direction`, so that
     /// neighbouring directions can share one result.
-    fn beams_about(&self, name: Dir<Facade>, side: Side, _within: f64) -> Vec<Beam> {
-        self.beams(name, side)
+    fn beams_about(&self, direction: Dir<Facade>, side: Side, _within: f64) -> Vec<Beam> {
+        self.beams(direction, side)
     }
 
     /// Returns the symmetry of the system's structure, which decides how much the light of neighbouring directions can
@@ -202,13 +202,13 @@ pub trait OpticalModel: Send + Sync {
     }
 
     /// Returns the scattered light, all that is not in beams, as means over the emergent cells, for parallel light from
-    /// `side` in the direction of undeviated light `name`.
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
+    /// `side` in the direction of undeviated light `direction`.
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight;
 
     /// Returns scattered light like [`Self::scattered`], for callers that need the transmitted light only: the
     /// reflected part may be empty.
-    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.scattered(name, side, emergent)
+    fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered(direction, side, emergent)
     }
 }
 

@@ -8,7 +8,7 @@ use crate::compute::direction::{Dir, Facade};
 pub struct Beam {
     /// Directions of undeviated light of both ends: equal for a parallel beam; the fan of a curved mirror is uniformly
     /// distributed between them.
-    pub names: [Dir<Facade>; 2],
+    pub directions: [Dir<Facade>; 2],
     /// Share of the incident flux that the beam carries.
     pub share: f64,
     /// Whether the beam is transmitted; otherwise it is reflected.
@@ -16,16 +16,16 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// Creates a transmitted parallel beam with the direction of undeviated light `name`, which carries `share` of the
-    /// incident flux.
-    pub const fn through(name: Dir<Facade>, share: f64) -> Self {
-        Self { names: [name, name], share, transmitted: true }
+    /// Creates a transmitted parallel beam with the direction of undeviated light `direction`, which carries `share` of
+    /// the incident flux.
+    pub const fn through(direction: Dir<Facade>, share: f64) -> Self {
+        Self { directions: [direction, direction], share, transmitted: true }
     }
 
-    /// Creates a reflected parallel beam with the direction of undeviated light `name`, which carries `share` of the
-    /// incident flux.
-    pub const fn back(name: Dir<Facade>, share: f64) -> Self {
-        Self { names: [name, name], share, transmitted: false }
+    /// Creates a reflected parallel beam with the direction of undeviated light `direction`, which carries `share` of
+    /// the incident flux.
+    pub const fn back(direction: Dir<Facade>, share: f64) -> Self {
+        Self { directions: [direction, direction], share, transmitted: false }
     }
 }
 

@@ -28,13 +28,13 @@ impl ProfileLight {
     }
 
     /// Returns the profile angle of a direction, measured as for these bands. \[rad\]
-    pub fn angle(&self, name: Dir<Facade>) -> f64 {
-        Self::angle_of(self.upright, name)
+    pub fn angle(&self, direction: Dir<Facade>) -> f64 {
+        Self::angle_of(self.upright, direction)
     }
 
     /// Returns the profile angle of a direction, to the right if `upright`, else upwards. \[rad\]
-    pub fn angle_of(upright: bool, name: Dir<Facade>) -> f64 {
-        let v = name.vector();
+    pub fn angle_of(upright: bool, direction: Dir<Facade>) -> f64 {
+        let v = direction.vector();
         if upright { v.x } else { v.y }.atan2(v.z)
     }
 
@@ -44,13 +44,13 @@ impl ProfileLight {
     }
 
     /// Returns the index of the band that contains a direction.
-    pub fn band_of(&self, name: Dir<Facade>) -> usize {
-        Self::band(self.angle(name), self.q.len()).min(self.q.len().saturating_sub(1))
+    pub fn band_of(&self, direction: Dir<Facade>) -> usize {
+        Self::band(self.angle(direction), self.q.len()).min(self.q.len().saturating_sub(1))
     }
 
-    /// Returns q in the direction of undeviated light `name`. \[1/sr\]
-    pub fn at(&self, name: Dir<Facade>) -> f64 {
-        self.q.get(Self::band(self.angle(name), self.q.len())).copied().unwrap_or(0.0)
+    /// Returns q in the direction of undeviated light `direction`. \[1/sr\]
+    pub fn at(&self, direction: Dir<Facade>) -> f64 {
+        self.q.get(Self::band(self.angle(direction), self.q.len())).copied().unwrap_or(0.0)
     }
 
     /// Returns the bands that each cell overlaps, with their shares: the mean [`Self::on`] of a cell is their weighted
@@ -58,8 +58,8 @@ impl ProfileLight {
     pub fn shares_on(upright: bool, bands: usize, cells: &RingBasis) -> Vec<Vec<(usize, f64)>> {
         let of = |cell| {
             let mut shares: Vec<(usize, f64)> = Vec::new();
-            for name in sub_directions(&cell, POINTS) {
-                let band = Self::band(Self::angle_of(upright, name), bands);
+            for direction in sub_directions(&cell, POINTS) {
+                let band = Self::band(Self::angle_of(upright, direction), bands);
                 let each = 1.0 / (POINTS * POINTS) as f64;
                 match shares.iter_mut().find(|(known, _)| *known == band) {
                     Some((_, sum)) => *sum += each,

@@ -18,14 +18,14 @@ impl OpticalModel for Upright {
         Ok(Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), ..made })
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
-        self.0.beams(to_described(name), side).into_iter().map(back).collect()
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let back = |beam: Beam| Beam { directions: beam.directions.map(from_described), ..beam };
+        self.0.beams(to_described(direction), side).into_iter().map(back).collect()
     }
 
-    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
-        let back = |beam: Beam| Beam { names: beam.names.map(from_described), ..beam };
-        self.0.beams_about(to_described(name), side, within).into_iter().map(back).collect()
+    fn beams_about(&self, direction: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        let back = |beam: Beam| Beam { directions: beam.directions.map(from_described), ..beam };
+        self.0.beams_about(to_described(direction), side, within).into_iter().map(back).collect()
     }
 
     fn structure(&self) -> Structure {
@@ -44,22 +44,22 @@ impl OpticalModel for Upright {
         self.0.is_quick()
     }
 
-    fn straight(&self, name: Dir<Facade>, side: Side) -> f64 {
-        self.0.straight(to_described(name), side)
+    fn straight(&self, direction: Dir<Facade>, side: Side) -> f64 {
+        self.0.straight(to_described(direction), side)
     }
 
-    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+    fn profile_light(&self, direction: Dir<Facade>, side: Side) -> Option<ProfileLight> {
         // Turned twice it would stand on its head.
-        let light = self.0.profile_light(to_described(name), side).filter(|light| !light.upright)?;
+        let light = self.0.profile_light(to_described(direction), side).filter(|light| !light.upright)?;
         Some(ProfileLight { upright: true, ..light })
     }
 
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.0.scattered(to_described(name), side, &turned(emergent))
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.0.scattered(to_described(direction), side, &turned(emergent))
     }
 
-    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.0.scattered_through(to_described(name), side, &turned(emergent))
+    fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.0.scattered_through(to_described(direction), side, &turned(emergent))
     }
 }
 
@@ -70,14 +70,14 @@ fn turned(basis: &RingBasis) -> RingBasis {
 }
 
 /// Returns a direction of the rotated system in the axes of the described one: azimuth φ + 90°.
-fn to_described(name: Dir<Facade>) -> Dir<Facade> {
-    let v = name.vector();
+fn to_described(direction: Dir<Facade>) -> Dir<Facade> {
+    let v = direction.vector();
     Dir::from_unit(DVec3::new(-v.y, v.x, v.z))
 }
 
 /// Returns a direction of the described system in the axes of the rotated one: azimuth φ − 90°.
-fn from_described(name: Dir<Facade>) -> Dir<Facade> {
-    let v = name.vector();
+fn from_described(direction: Dir<Facade>) -> Dir<Facade> {
+    let v = direction.vector();
     Dir::from_unit(DVec3::new(v.y, -v.x, v.z))
 }
 
@@ -97,14 +97,14 @@ mod tests {
         let sheet = crate::compute::system::panes::glazing::Pane { index: 1.5, thickness: 0.01, absorption: 0.0 };
         let panel = LaserCutPanel { sheet, spacing: 0.007 };
         let upright = Upright(Box::new(SharpBeams(CutPanel { panel, cut_loss: 0.0 })));
-        let name = Dir::from_theta_phi(0.8, 0.3);
+        let direction = Dir::from_theta_phi(0.8, 0.3);
         let shares = panel.shares(Dir::from_theta_phi(0.8, 0.3 + FRAC_PI_2), 0.0);
         for side in Side::BOTH {
-            let beams = upright.beams(name, side);
+            let beams = upright.beams(direction, side);
             let at = |x: f64, transmitted: bool| {
-                let v = DVec3::new(x * name.vector().x, name.vector().y, name.vector().z);
+                let v = DVec3::new(x * direction.vector().x, direction.vector().y, direction.vector().z);
                 let found =
-                    |beam: &&Beam| beam.transmitted == transmitted && (beam.names[0].vector() - v).length() < 1e-9;
+                    |beam: &&Beam| beam.transmitted == transmitted && (beam.directions[0].vector() - v).length() < 1e-9;
                 beams.iter().find(found).map_or(0.0, |beam| beam.share)
             };
             assert!((at(1.0, true) - shares.straight).abs() < 1e-9 && (at(-1.0, true) - shares.deflected).abs() < 1e-9);

@@ -50,10 +50,10 @@ impl OpticalModel for Panes {
         true
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        let shares = self.shares(name.theta());
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let shares = self.shares(direction.theta());
         let reflected = if side == Side::Front { shares.reflected_front } else { shares.reflected_back };
-        vec![Beam::through(name, shares.transmitted), Beam::back(name, reflected)]
+        vec![Beam::through(direction, shares.transmitted), Beam::back(direction, reflected)]
     }
 
     fn structure(&self) -> Structure {

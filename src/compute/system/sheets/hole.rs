@@ -88,10 +88,10 @@ impl Perforated {
         self.hole.area() / self.area
     }
 
-    /// Returns the share of light with the direction of undeviated light `name` that passes undeviated, 0 … 1; the same
-    /// from both sides.
-    pub fn straight(&self, name: Dir<Facade>) -> f64 {
-        let v = name.vector();
+    /// Returns the share of light with the direction of undeviated light `direction` that passes undeviated, 0 … 1; the
+    /// same from both sides.
+    pub fn straight(&self, direction: Dir<Facade>) -> f64 {
+        let v = direction.vector();
         if v.z <= 0.0 {
             return 0.0;
         }

@@ -68,13 +68,13 @@ impl Holes {
 
     /// Computes the scattered light of one direction, by its reflections at the faces of the sheet and at the walls of
     /// the holes; `depth`: index in [`DEPTH`] of the walls' division.
-    fn rest(&self, name: Dir<Facade>, side: Side, depth: usize, cells: &RingBasis, seen: &Seen) -> Rest {
+    fn rest(&self, direction: Dir<Facade>, side: Side, depth: usize, cells: &RingBasis, seen: &Seen) -> Rest {
         let Solved { walls, response } = &self.solved()[depth];
         let n = walls.len();
         let mut first = vec![0.0; n];
-        walls.light(name, side, false, 1.0, &mut first);
+        walls.light(direction, side, false, 1.0, &mut first);
         // Polygons stand for circles: what they let fall on the walls is made what the circle does.
-        let (got, due) = (first.iter().sum::<f64>(), self.sheet.open() - self.sheet.straight(name));
+        let (got, due) = (first.iter().sum::<f64>(), self.sheet.open() - self.sheet.straight(direction));
         let scale = if got > 1e-12 { due.max(0.0) / got } else { 0.0 };
         let wall = self.sheet.reflectance[2];
         first.iter_mut().for_each(|first| *first *= scale);
@@ -110,26 +110,26 @@ impl OpticalModel for Holes {
         measure_walls(&self.sheet, setting, progress)
     }
 
-    fn beams(&self, name: Dir<Facade>, _: Side) -> Vec<Beam> {
-        let share = self.sheet.straight(name);
-        if share > 0.0 { vec![Beam::through(name, share)] } else { vec![] }
+    fn beams(&self, direction: Dir<Facade>, _: Side) -> Vec<Beam> {
+        let share = self.sheet.straight(direction);
+        if share > 0.0 { vec![Beam::through(direction, share)] } else { vec![] }
     }
 
     /// Computes the scattered light with the fine division of the walls; the error is its difference from the coarse
     /// one plus the missing energy.
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         let face = self.sheet.reflectance[usize::from(side == Side::Back)] * (1.0 - self.sheet.open());
         if self.sheet.reflectance[2] == 0.0 {
             let reflected = if face > 0.0 { vec![face / PI; emergent.len()] } else { vec![] };
             return ScatteredLight { reflected, ..ScatteredLight::default() };
         }
         let seen = self.seen.get(emergent, Seen::default);
-        let [coarse, fine] = [0, 1].map(|depth| self.rest(name, side, depth, emergent, &seen));
+        let [coarse, fine] = [0, 1].map(|depth| self.rest(direction, side, depth, emergent, &seen));
         let weight = emergent.projected_solid_angles();
         let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
         let [t, r] = [share(&fine.transmitted), share(&fine.reflected)];
         let difference = (t - share(&coarse.transmitted)).abs().max((r - share(&coarse.reflected)).abs());
-        let missing = (1.0 - self.sheet.straight(name) - t - r - fine.absorbed).abs();
+        let missing = (1.0 - self.sheet.straight(direction) - t - r - fine.absorbed).abs();
         ScatteredLight { transmitted: fine.transmitted, reflected: fine.reflected, error: difference + missing }
     }
 }
@@ -156,12 +156,12 @@ mod tests {
             for side in Side::BOTH {
                 for i in [30, 95, 120] {
                     let (mut t, mut r, mut error, mut beam) = (0.0, 0.0, 0.0_f64, 0.0);
-                    for name in sub_directions(&cells.cell(i), 3) {
-                        let found = holes.scattered(name, side, &cells);
+                    for direction in sub_directions(&cells.cell(i), 3) {
+                        let found = holes.scattered(direction, side, &cells);
                         t += share(&found.transmitted) / 9.0;
                         r += share(&found.reflected) / 9.0;
                         error = error.max(found.error);
-                        beam += holes.beams(name, side).iter().map(|beam| beam.share).sum::<f64>() / 9.0;
+                        beam += holes.beams(direction, side).iter().map(|beam| beam.share).sum::<f64>() / 9.0;
                     }
                     let row = |q: &[f64]| share(&q[i * 145..(i + 1) * 145]);
                     let (t0, r0) = (row(&made.seen(side).transmitted), row(&made.seen(side).reflected));

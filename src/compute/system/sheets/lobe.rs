@@ -97,9 +97,10 @@ impl Lobe {
     }
 
     /// Returns the mean q of the lobe over the emergent cell `to` for light with the direction of undeviated light
-    /// `name`. \[1/sr\] By Gauss' nodes in sin²θ and φ, because the cell's edge may cut the lobe where it is steepest.
-    pub fn mean_about(&self, name: Dir<Facade>, to: &Cell) -> f64 {
-        let ([x, y], d) = self.point(name);
+    /// `direction`. \[1/sr\] By Gauss' nodes in sin²θ and φ, because the cell's edge may cut the lobe where it is
+    /// steepest.
+    pub fn mean_about(&self, direction: Dir<Facade>, to: &Cell) -> f64 {
+        let ([x, y], d) = self.point(direction);
         let [high, wide] = sides(to);
         let centre = to.centre().vector().truncate();
         let precision = 0.5 / (self.spread * self.spread);

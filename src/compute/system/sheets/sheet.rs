@@ -98,20 +98,20 @@ impl OpticalModel for Sheet {
         true
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        let theta = name.theta();
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        let theta = direction.theta();
         let [straight, mirrored] = [&self.transmission, self.reflection(side)].map(|part| part.regular.at(theta));
-        let beams = [Beam::through(name, straight), Beam::back(name, mirrored)];
+        let beams = [Beam::through(direction, straight), Beam::back(direction, mirrored)];
         beams.into_iter().filter(|beam| beam.share > 0.0).collect()
     }
 
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        let reflected = self.reflected(name, side, emergent);
-        ScatteredLight { reflected, ..self.scattered_through(name, side, emergent) }
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let reflected = self.reflected(direction, side, emergent);
+        ScatteredLight { reflected, ..self.scattered_through(direction, side, emergent) }
     }
 
-    fn scattered_through(&self, name: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.transmitted_with(name, emergent, self.transmission.diffuse.at(name.theta()))
+    fn scattered_through(&self, direction: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.transmitted_with(direction, emergent, self.transmission.diffuse.at(direction.theta()))
     }
 }
 
@@ -125,17 +125,17 @@ impl Sheet {
     }
 
     /// Computes the scattered transmitted light on emergent cells for light with the direction of undeviated light
-    /// `name`; `diffuse`: diffuse share of the incident light, instead of that of the tables.
-    pub fn transmitted_with(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
-        let transmitted = self.transmission.of(name, emergent, diffuse);
+    /// `direction`; `diffuse`: diffuse share of the incident light, instead of that of the tables.
+    pub fn transmitted_with(&self, direction: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> ScatteredLight {
+        let transmitted = self.transmission.of(direction, emergent, diffuse);
         ScatteredLight { transmitted, error: TOTALS, ..ScatteredLight::default() }
     }
 
     /// Computes q of the scattered reflected light, as means over the emergent cells, for light from `side` with the
-    /// direction of undeviated light `name`. \[1/sr\]
-    pub fn reflected(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> Vec<f64> {
+    /// direction of undeviated light `direction`. \[1/sr\]
+    pub fn reflected(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> Vec<f64> {
         let back = self.reflection(side);
-        back.of(name, emergent, back.diffuse.at(name.theta()))
+        back.of(direction, emergent, back.diffuse.at(direction.theta()))
     }
 }
 
@@ -165,7 +165,7 @@ impl Spread {
 
     /// Returns the mean q over the emergent cells of the scattered light of one exact direction, with the diffuse share
     /// `diffuse` of the incident light. \[1/sr\] Empty if nothing is scattered.
-    fn of(&self, name: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> Vec<f64> {
+    fn of(&self, direction: Dir<Facade>, emergent: &RingBasis, diffuse: f64) -> Vec<f64> {
         if self.is_dark() {
             return vec![];
         }
@@ -181,8 +181,8 @@ impl Spread {
         };
         add(ring_means(emergent, &self.diffuse, &gauss_legendre(NARROW)), diffuse.max(0.0));
         if let Some(lobe) = &self.lobe {
-            let shape = emergent.cells().map(|to| lobe.mean_about(name, &to)).collect();
-            add(shape, lobe.share().at(name.theta()));
+            let shape = emergent.cells().map(|to| lobe.mean_about(direction, &to)).collect();
+            add(shape, lobe.share().at(direction.theta()));
         }
         values
     }
@@ -323,11 +323,11 @@ mod tests {
         let made = sheet.measure(&setting, &Silent).unwrap();
         for i in [0, 40, 100, 125] {
             let mut mean = vec![0.0; cells.len()];
-            for name in sub_directions(&cells.cell(i), 6) {
-                let beams = sheet.beams(name, Side::Front);
-                let found = sheet.scattered(name, Side::Front, &cells);
+            for direction in sub_directions(&cells.cell(i), 6) {
+                let beams = sheet.beams(direction, Side::Front);
+                let found = sheet.scattered(direction, Side::Front, &cells);
                 let all = beams.iter().map(|beam| beam.share).sum::<f64>() + share(&found.transmitted);
-                let exact = 0.8 * (1.0 - (1.0 - name.theta().cos()).powi(5));
+                let exact = 0.8 * (1.0 - (1.0 - direction.theta().cos()).powi(5));
                 assert!((all - exact).abs() < 2e-4, "{i}: {all} {exact}");
                 assert!(beams.len() == 1 && (share(&found.reflected) - 0.1).abs() < 1e-12);
                 mean.iter_mut().zip(&found.transmitted).for_each(|(mean, q)| *mean += q / 36.0);
@@ -345,9 +345,9 @@ mod tests {
         let nothing = AngularTransmittance::Constant(0.0);
         let lobe = Some(Lobe::new(AngularTransmittance::Constant(1.0), spread));
         let made = Spread { regular: nothing.clone(), diffuse: nothing, lobe };
-        let name = Dir::from_theta_phi(0.2, 0.7);
-        let centre = name.vector().truncate();
-        for (cell, q) in cells.cells().zip(made.of(name, &cells, 0.0)) {
+        let direction = Dir::from_theta_phi(0.2, 0.7);
+        let centre = direction.vector().truncate();
+        for (cell, q) in cells.cells().zip(made.of(direction, &cells, 0.0)) {
             let density = |d: Dir<Facade>| {
                 let apart = (d.vector().truncate() - centre).length();
                 (-0.5 * (apart / spread).powi(2)).exp() / (2.0 * PI * spread * spread)

@@ -242,9 +242,10 @@ impl Walls {
     }
 
     /// Adds the flux of light of one direction on every patch, times `share`, to `walls`, and returns the share that
-    /// passes undeviated. `name`: direction of undeviated light, rotated by 180° about the normal first if `turned`.
-    pub fn light(&self, name: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
-        let mut v = name.vector();
+    /// passes undeviated. `direction`: direction of undeviated light, rotated by 180° about the normal first if
+    /// `turned`.
+    pub fn light(&self, direction: Dir<Facade>, side: Side, turned: bool, share: f64, walls: &mut [f64]) -> f64 {
+        let mut v = direction.vector();
         if turned {
             (v.x, v.y) = (-v.x, -v.y);
         }

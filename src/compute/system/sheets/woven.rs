@@ -118,20 +118,20 @@ impl OpticalModel for Fabric {
         true
     }
 
-    fn beams(&self, name: Dir<Facade>, _: Side) -> Vec<Beam> {
-        let open = self.woven.open(name.theta());
-        if open > 0.0 { vec![Beam::through(name, open)] } else { vec![] }
+    fn beams(&self, direction: Dir<Facade>, _: Side) -> Vec<Beam> {
+        let open = self.woven.open(direction.theta());
+        if open > 0.0 { vec![Beam::through(direction, open)] } else { vec![] }
     }
 
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        let reflected = self.sheet.reflected(name, side, emergent);
-        ScatteredLight { reflected, ..self.scattered_through(name, side, emergent) }
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        let reflected = self.sheet.reflected(direction, side, emergent);
+        ScatteredLight { reflected, ..self.scattered_through(direction, side, emergent) }
     }
 
-    fn scattered_through(&self, name: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
-        let theta = name.theta();
+    fn scattered_through(&self, direction: Dir<Facade>, _: Side, emergent: &RingBasis) -> ScatteredLight {
+        let theta = direction.theta();
         let through_yarns = self.woven.total(theta) - self.woven.open(theta);
-        self.sheet.transmitted_with(name, emergent, through_yarns)
+        self.sheet.transmitted_with(direction, emergent, through_yarns)
     }
 }
 
@@ -149,10 +149,10 @@ mod tests {
         let share = |q: &[f64]| q.iter().zip(&weight).map(|(q, w)| q * w).sum::<f64>();
         for k in 0..890 {
             let theta = (0.1 * f64::from(k)).to_radians();
-            let name = Dir::from_theta_phi(theta, 0.1 * f64::from(k));
-            let beams: f64 = specimen.beams(name, Side::Front).iter().map(|beam| beam.share).sum();
+            let direction = Dir::from_theta_phi(theta, 0.1 * f64::from(k));
+            let beams: f64 = specimen.beams(direction, Side::Front).iter().map(|beam| beam.share).sum();
             assert!((beams - fabric.open(theta)).abs() < 1e-12);
-            let found = specimen.scattered(name, Side::Back, &cells);
+            let found = specimen.scattered(direction, Side::Back, &cells);
             assert!((share(&found.transmitted) + beams - fabric.total(theta)).abs() < 1e-12);
             assert!((share(&found.reflected) - 0.3 * 0.95).abs() < 1e-12);
         }

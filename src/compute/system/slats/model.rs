@@ -127,13 +127,13 @@ fn weights(cells: &RingBasis) -> Arc<ProfileWeights> {
 }
 
 /// Returns the direction cosine x along the slats and the profile angle \[rad\] of a direction.
-fn section_angles(name: Dir<Facade>) -> (f64, f64) {
-    let v = name.vector();
+fn section_angles(direction: Dir<Facade>) -> (f64, f64) {
+    let v = direction.vector();
     (v.x, v.y.atan2(v.z))
 }
 
 /// Returns the direction with the direction cosine `x` along the slats and the profile angle `psi`. \[rad\]
-fn name_of(x: f64, psi: f64) -> Dir<Facade> {
+fn direction_of(x: f64, psi: f64) -> Dir<Facade> {
     let across = (1.0 - x * x).max(0.0).sqrt();
     Dir::from_unit(DVec3::new(x, across * psi.sin(), across * psi.cos()))
 }
@@ -143,14 +143,14 @@ impl OpticalModel for SlatModel {
         self.array.measure(setting, progress)
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
-        self.beams_by(name, |psi| Arc::new(self.mirror_beams(psi, side)))
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        self.beams_by(direction, |psi| Arc::new(self.mirror_beams(psi, side)))
     }
 
-    /// Returns the beams for a direction near `name`: those of mirrors are computed at profile angles in steps of 2
-    /// `within` and cached.
-    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
-        self.beams_by(name, |psi| {
+    /// Returns the beams for a direction near `direction`: those of mirrors are computed at profile angles in steps of
+    /// 2 `within` and cached.
+    fn beams_about(&self, direction: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+        self.beams_by(direction, |psi| {
             let place = (psi / (2.0 * within)).round();
             let key = (side, place as i64, within.to_bits());
             // Cached results are complete even if another thread has failed while it held the lock.
@@ -176,14 +176,14 @@ impl OpticalModel for SlatModel {
         (!self.has(|surface| surface.mirror * surface.spread)).then_some(false)
     }
 
-    fn straight(&self, name: Dir<Facade>, _: Side) -> f64 {
-        self.direct.share(section_angles(name).1)
+    fn straight(&self, direction: Dir<Facade>, _: Side) -> f64 {
+        self.direct.share(section_angles(direction).1)
     }
 
     /// Returns the light that matt faces transmit scattered, by profile angle; `None` without matt faces or with rough
     /// mirrors, which spread light along the slats.
-    fn profile_light(&self, name: Dir<Facade>, side: Side) -> Option<ProfileLight> {
-        let (_, psi) = section_angles(name);
+    fn profile_light(&self, direction: Dir<Facade>, side: Side) -> Option<ProfileLight> {
+        let (_, psi) = section_angles(direction);
         // Rough mirrors spread along the slats, too.
         if psi.cos() <= 0.0
             || !self.has(|surface| surface.diffuse)
@@ -200,20 +200,20 @@ impl OpticalModel for SlatModel {
         })
     }
 
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.scattered_light(name, side, emergent, true)
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered_light(direction, side, emergent, true)
     }
 
-    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
-        self.scattered_light(name, side, emergent, false)
+    fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.scattered_light(direction, side, emergent, false)
     }
 }
 
 impl SlatModel {
     /// Computes the light that matt faces and rough mirrors scatter, on emergent cells; `back`: the reflected light,
     /// too, not only the transmitted.
-    fn scattered_light(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
-        let (x, psi) = section_angles(name);
+    fn scattered_light(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis, back: bool) -> ScatteredLight {
+        let (x, psi) = section_angles(direction);
         let rough = self.has(|surface| surface.mirror * surface.spread);
         let matt = self.has(|surface| surface.diffuse);
         if psi.cos() <= 0.0 || !(matt || rough) {
@@ -251,20 +251,20 @@ impl SlatModel {
         all
     }
 
-    /// Returns the direct beam and the beams reflected by mirrors for the direction `name`; `mirror_beams` supplies the
-    /// latter for its profile angle.
-    fn beams_by(&self, name: Dir<Facade>, mirror_beams: impl FnOnce(f64) -> Arc<Vec<MirrorBeam>>) -> Vec<Beam> {
-        let (x, psi) = section_angles(name);
+    /// Returns the direct beam and the beams reflected by mirrors for the direction `direction`; `mirror_beams`
+    /// supplies the latter for its profile angle.
+    fn beams_by(&self, direction: Dir<Facade>, mirror_beams: impl FnOnce(f64) -> Arc<Vec<MirrorBeam>>) -> Vec<Beam> {
+        let (x, psi) = section_angles(direction);
         let mut beams = Vec::new();
         let open = self.direct.share(psi);
         if open > 0.0 {
-            beams.push(Beam::through(name, open));
+            beams.push(Beam::through(direction, open));
         }
         if psi.cos() <= 0.0 || !self.has(|surface| surface.mirror) {
             return beams;
         }
         let named = |one: &MirrorBeam| Beam {
-            names: one.psi.map(|psi| name_of(x, psi)),
+            directions: one.psi.map(|psi| direction_of(x, psi)),
             share: one.share,
             transmitted: one.transmitted,
         };
@@ -354,7 +354,7 @@ fn add_rough(q: &mut Vec<f64>, lobes: &[Lobe], [x, psi]: [f64; 2], emergent: &Ri
             let (length, across) = (step.hypot(rest), (1.0 - x * x).max(0.0).sqrt());
             let sine = if length > 0.0 { length.sin() * step / length } else { 0.0 };
             let moved = (x * length.cos() + across * sine).clamp(-1.0, 1.0);
-            if let Some(cell) = emergent.index(name_of(moved, lobe.psi[0])) {
+            if let Some(cell) = emergent.index(direction_of(moved, lobe.psi[0])) {
                 q[cell] += lobe.width / (psi.cos() * ALONG as f64 * solid[cell]);
             }
         }
@@ -373,10 +373,10 @@ mod tests {
     }
 
     /// Transmitted and thrown back, of one direction, beams and all.
-    fn shares(specimen: &SlatModel, name: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
+    fn shares(specimen: &SlatModel, direction: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        specimen.beams(name, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
-        let light = specimen.scattered(name, side, cells);
+        specimen.beams(direction, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
+        let light = specimen.scattered(direction, side, cells);
         let solid = cells.projected_solid_angles();
         for (sum, q) in sums.iter_mut().zip([&light.transmitted, &light.reflected]) {
             *sum += q.iter().zip(&solid).map(|(q, w)| q * w).sum::<f64>();
@@ -392,9 +392,9 @@ mod tests {
         {
             let specimen = SlatModel::new(array(0.006, 0.3, faces));
             for (side, theta) in Side::BOTH.into_iter().zip([0.4, 1.1]) {
-                let name = Dir::from_theta_phi(theta, 1.9);
+                let direction = Dir::from_theta_phi(theta, 1.9);
                 let (all, through) =
-                    (specimen.scattered(name, side, &cells), specimen.scattered_through(name, side, &cells));
+                    (specimen.scattered(direction, side, &cells), specimen.scattered_through(direction, side, &cells));
                 assert!(all.transmitted.iter().any(|q| *q > 0.0) && all.reflected.iter().any(|q| *q > 0.0));
                 assert!(all.transmitted == through.transmitted && through.reflected.is_empty());
             }
@@ -438,7 +438,7 @@ mod tests {
                 let known = array.profile_shares(side, &psi, 1, &Silent).unwrap();
                 for (psi, known) in psi.into_iter().zip(known) {
                     for x in [0.0, 0.6] {
-                        let found = shares(&specimen, name_of(x, psi), side, &cells);
+                        let found = shares(&specimen, direction_of(x, psi), side, &cells);
                         let apart = (found[0] - known.transmitted).abs().max((found[1] - known.reflected).abs());
                         assert!(apart < bound, "{rise} {tilt} {side:?} {psi} {x}: {found:?} {known:?}");
                     }
@@ -451,9 +451,11 @@ mod tests {
     fn light_by_profile_angle_is_the_light_on_cells() {
         let specimen = SlatModel::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
         let cells = RingBasis::even(3_f64.to_radians());
-        let name = name_of(0.3, 0.6);
-        let (on, by) =
-            (specimen.scattered(name, Side::Front, &cells), specimen.profile_light(name, Side::Front).unwrap());
+        let direction = direction_of(0.3, 0.6);
+        let (on, by) = (
+            specimen.scattered(direction, Side::Front, &cells),
+            specimen.profile_light(direction, Side::Front).unwrap(),
+        );
         let largest = on.transmitted.iter().copied().fold(0.0, f64::max);
         for (cell, (a, b)) in on.transmitted.iter().zip(by.on(&cells)).enumerate() {
             assert!((a - b).abs() < 0.02 * largest, "{cell}: {a} {b}");
@@ -465,10 +467,10 @@ mod tests {
         // Level mirrors turn ψ into −ψ.
         let specimen = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
         let psi = 60_f64.to_radians();
-        let beams = specimen.beams(name_of(0.2, psi), Side::Front);
+        let beams = specimen.beams(direction_of(0.2, psi), Side::Front);
         let turned: Vec<&Beam> = beams.iter().filter(|beam| beam.transmitted).collect();
         assert_eq!(turned.len(), 1, "{beams:?}");
-        assert!(turned[0].names[0].vector().distance(name_of(0.2, -psi).vector()) < 1e-9);
+        assert!(turned[0].directions[0].vector().distance(direction_of(0.2, -psi).vector()) < 1e-9);
         // A slat is lit from its outer edge over s/tanψ. What it mirrors rises to the slat above within another s/tanψ,
         // and leaves where that is beyond its width.
         let reach = 0.072 / psi.tan();

@@ -100,31 +100,31 @@ impl OpticalModel for Stack {
         self.layers.iter().map(|layer| layer.structure()).fold(Structure::Even, Structure::and)
     }
 
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
         match self.layers.as_slice() {
-            [only] => only.beams(name, side),
-            layers => self.singles.beams(layers, name, side, 0.0),
+            [only] => only.beams(direction, side),
+            layers => self.singles.beams(layers, direction, side, 0.0),
         }
     }
 
-    fn beams_about(&self, name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
+    fn beams_about(&self, direction: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
         match self.layers.as_slice() {
-            [only] => only.beams_about(name, side, within),
-            layers => self.singles.beams(layers, name, side, within),
+            [only] => only.beams_about(direction, side, within),
+            layers => self.singles.beams(layers, direction, side, within),
         }
     }
 
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         match self.layers.as_slice() {
-            [only] => only.scattered(name, side, emergent),
-            layers => self.singles.scattered(layers, name, side, emergent),
+            [only] => only.scattered(direction, side, emergent),
+            layers => self.singles.scattered(layers, direction, side, emergent),
         }
     }
 
-    fn scattered_through(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+    fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         match self.layers.as_slice() {
-            [only] => only.scattered_through(name, side, emergent),
-            layers => self.singles.scattered(layers, name, side, emergent),
+            [only] => only.scattered_through(direction, side, emergent),
+            layers => self.singles.scattered(layers, direction, side, emergent),
         }
     }
 }

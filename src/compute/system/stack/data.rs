@@ -63,23 +63,23 @@ impl OpticalModel for DataLayer {
 
     /// Returns the regular transmission and reflection of the data as beams; all other light, including narrow measured
     /// peaks, is in the scattered part.
-    fn beams(&self, name: Dir<Facade>, side: Side) -> Vec<Beam> {
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
         let [through, opposite, back] = components(side);
         let share = |btdf: Option<&Btdf>| {
             let regular: Option<&AngularTransmittance> = btdf.and_then(|btdf| btdf.regular.as_ref());
-            regular.map_or(0.0, |tau| tau.at(name.theta()))
+            regular.map_or(0.0, |tau| tau.at(direction.theta()))
         };
         // The undeviated share is the same from both sides.
         let tau = share(self.0.get(through).or_else(|| self.0.get(opposite)));
-        let beams = [Beam::through(name, tau), Beam::back(name, share(self.0.get(back)))];
+        let beams = [Beam::through(direction, tau), Beam::back(direction, share(self.0.get(back)))];
         beams.into_iter().filter(|beam| beam.share > 0.0).collect()
     }
 
     /// Returns the scattered light of the data for one direction, as means over the emergent cells.
-    fn scattered(&self, name: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         let [through, opposite, back] = components(side);
         let forwards = |btdf: &Btdf| {
-            let found = btdf.indicatrix(Incident(name))?;
+            let found = btdf.indicatrix(Incident(direction))?;
             Some(if &found.basis == emergent {
                 found.q
             } else {
@@ -88,7 +88,7 @@ impl OpticalModel for DataLayer {
         };
         let backwards = |btdf: &Btdf| {
             btdf.scattered.as_ref()?;
-            let q = |d| btdf.q(Incident(d), Emergent::from_through_name(name));
+            let q = |d| btdf.q(Incident(d), Emergent::from_undeviated(direction));
             let mean = |cell| sub_directions(&cell, BACKWARDS).map(q).sum::<f64>() / (BACKWARDS * BACKWARDS) as f64;
             Some(emergent.cells().map(mean).collect())
         };
@@ -129,11 +129,11 @@ mod tests {
         let weight = cells.projected_solid_angles();
         for side in Side::BOTH {
             for i in [3, 77, 110] {
-                let name = cells.cell(i).centre();
-                let beams = layer.beams(name, side);
-                assert!(beams.len() == 1 && beams[0].names[0] == name && beams[0].transmitted);
-                assert!((beams[0].share - 0.3 * name.theta().cos()).abs() < 1e-4);
-                let found = layer.scattered(name, side, &cells);
+                let direction = cells.cell(i).centre();
+                let beams = layer.beams(direction, side);
+                assert!(beams.len() == 1 && beams[0].directions[0] == direction && beams[0].transmitted);
+                assert!((beams[0].share - 0.3 * direction.theta().cos()).abs() < 1e-4);
+                let found = layer.scattered(direction, side, &cells);
                 for o in (0..n).filter(|&o| o != i) {
                     assert!(
                         (found.transmitted[o] - made.seen(side).transmitted[i * n + o]).abs() < 1e-12,

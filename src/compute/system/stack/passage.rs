@@ -39,7 +39,7 @@ pub(super) struct Arrival {
     /// Side that the light comes from.
     pub side: Side,
     /// Direction of undeviated light for the layer, as seen from the side that the light comes from.
-    pub name: Dir<Facade>,
+    pub direction: Dir<Facade>,
     /// Share of the light on the stack that arrives, summed over all bounces between layers.
     pub share: f64,
     /// Beams that the layer transmits and reflects of this light.
@@ -58,26 +58,26 @@ pub(super) struct Passage {
 }
 
 /// Returns the direction of undeviated light as it is for light from the other side: rotated by 180° about the normal.
-pub(super) fn half_turn(name: Dir<Facade>) -> Dir<Facade> {
-    let v = name.vector();
+pub(super) fn half_turn(direction: Dir<Facade>) -> Dir<Facade> {
+    let v = direction.vector();
     Dir::from_unit(DVec3::new(-v.x, -v.y, v.z))
 }
 
-/// Traces parallel light from `side` with the direction of undeviated light `name` through `layers` (outermost first).
-/// Layers may use the result of a direction at most `within` \[rad\] from the exact one.
-pub(super) fn follow(layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Passage {
+/// Traces parallel light from `side` with the direction of undeviated light `direction` through `layers` (outermost
+/// first). Layers may use the result of a direction at most `within` \[rad\] from the exact one.
+pub(super) fn follow(layers: &[Box<dyn OpticalModel>], direction: Dir<Facade>, side: Side, within: f64) -> Passage {
     let n = layers.len();
     let enough = ENOUGH[usize::from(within > 0.0)];
     let mut passage = Passage::default();
     let mut known: BTreeMap<(usize, bool, [i64; 2]), usize> = BTreeMap::new();
     let start = if side == Side::Front { (0, true) } else { (n, false) };
-    let mut light: Vec<(Place, Beam)> = vec![(start, Beam::through(name, 1.0))];
+    let mut light: Vec<(Place, Beam)> = vec![(start, Beam::through(direction, 1.0))];
     // By gap, outwards and inwards.
     let mut next: Vec<Vec<Beam>> = vec![Vec::new(); 2 * (n + 1)];
     while !light.is_empty() {
         for ((gap, inwards), beam) in light.drain(..) {
             let from = if inwards { Side::Front } else { Side::Back };
-            let named = |name: Dir<Facade>| if from == side { name } else { half_turn(name) };
+            let named = |direction: Dir<Facade>| if from == side { direction } else { half_turn(direction) };
             let layer = if inwards { gap } else { gap - 1 };
             for piece in pieces(&beam, PIECE) {
                 let asked = named(middle(&piece));
@@ -96,22 +96,23 @@ pub(super) fn follow(layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: 
                     } else {
                         layers[layer].beams(asked, from)
                     };
-                    passage.arrivals.push(Arrival { layer, side: from, name: asked, share: 0.0, beams });
+                    passage.arrivals.push(Arrival { layer, side: from, direction: asked, share: 0.0, beams });
                     known.insert(key, count);
                     count
                 };
                 let arrival = &mut passage.arrivals[number];
                 arrival.share += piece.share;
                 for made in &arrival.beams {
-                    let kept = made.names.iter().all(|to| (to.vector() - arrival.name.vector()).length() < SAME);
-                    let names = if kept { piece.names } else { made.names.map(named) };
+                    let kept =
+                        made.directions.iter().all(|to| (to.vector() - arrival.direction.vector()).length() < SAME);
+                    let directions = if kept { piece.directions } else { made.directions.map(named) };
                     let (to, inwards) = match (made.transmitted, inwards) {
                         (true, true) => (gap + 1, true),
                         (true, false) => (gap - 1, false),
                         (false, _) => (gap, !inwards),
                     };
                     next[2 * to + usize::from(inwards)].push(Beam {
-                        names,
+                        directions,
                         share: piece.share * made.share,
                         transmitted: true,
                     });

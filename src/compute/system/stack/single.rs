@@ -44,21 +44,27 @@ impl Emergent {
 
 impl Singles {
     /// Returns the beams that leave the stack for parallel light from `side` with the direction of undeviated light
-    /// `name`; layers may use the result of a direction at most `within` \[rad\] from the exact one.
-    pub fn beams(&self, layers: &[Box<dyn OpticalModel>], name: Dir<Facade>, side: Side, within: f64) -> Vec<Beam> {
-        follow(layers, name, side, within).leaving
+    /// `direction`; layers may use the result of a direction at most `within` \[rad\] from the exact one.
+    pub fn beams(
+        &self,
+        layers: &[Box<dyn OpticalModel>],
+        direction: Dir<Facade>,
+        side: Side,
+        within: f64,
+    ) -> Vec<Beam> {
+        follow(layers, direction, side, within).leaving
     }
 
     /// Computes the scattered light on the emergent cells `cells` for parallel light from `side` with the direction of
-    /// undeviated light `name`.
+    /// undeviated light `direction`.
     pub fn scattered(
         &self,
         layers: &[Box<dyn OpticalModel>],
-        name: Dir<Facade>,
+        direction: Dir<Facade>,
         side: Side,
         cells: &RingBasis,
     ) -> ScatteredLight {
-        let Passage { mut arrivals, left, .. } = follow(layers, name, side, 0.0);
+        let Passage { mut arrivals, left, .. } = follow(layers, direction, side, 0.0);
         let faint = drop_faint(&mut arrivals);
         let mut error = faint;
         // q on the cells asked for, by through directions of light from `side`.
@@ -69,7 +75,7 @@ impl Singles {
         let turned = cells.clone().with_azimuth(AzimuthMap { offset: azimuth.offset + PI, ..azimuth });
         for arrival in &arrivals {
             let own = if arrival.side == side { cells } else { &turned };
-            let made = layers[arrival.layer].scattered(arrival.name, arrival.side, own);
+            let made = layers[arrival.layer].scattered(arrival.direction, arrival.side, own);
             error += arrival.share * made.error;
             let inwards = arrival.side == Side::Front;
             let beyond = if inwards { (arrival.layer + 1, true) } else { (arrival.layer, false) };

@@ -43,7 +43,7 @@ fn lambertian(t: f64, r: f64) -> Box<dyn OpticalModel> {
     Box::new(DataLayer(diffuser::lambertian(t, r)))
 }
 
-fn names() -> impl Iterator<Item = Dir<Facade>> {
+fn directions() -> impl Iterator<Item = Dir<Facade>> {
     (0..40).map(|k| Dir::from_theta_phi(0.038 * f64::from(k), 2.4 * f64::from(k)))
 }
 
@@ -60,19 +60,19 @@ fn a_pane_and_black_holes_are_a_product() {
     for outside in [true, false] {
         let holes = STRANDS.optical_model("").unwrap();
         let made = Stack::new(if outside { vec![pane(GREY), holes] } else { vec![holes, pane(GREY)] });
-        for name in names() {
-            let glass = stack(&[GREY], name.theta());
-            let open = STRANDS.straight(name);
+        for direction in directions() {
+            let glass = stack(&[GREY], direction.theta());
+            let open = STRANDS.straight(direction);
             for side in Side::BOTH {
-                let beams = made.beams(name, side);
+                let beams = made.beams(direction, side);
                 assert!((sum(&beams, true) - glass.transmitted * open).abs() < 1e-7);
                 // What reaches the pane first is mirrored; from behind the holes, what passes them twice.
                 let seen_first = outside == (side == Side::Front);
-                let back = Dir::from_unit(name.vector() * glam::DVec3::new(-1.0, -1.0, 1.0));
+                let back = Dir::from_unit(direction.vector() * glam::DVec3::new(-1.0, -1.0, 1.0));
                 let returned = if seen_first { 1.0 } else { open * STRANDS.straight(back) };
                 assert!((sum(&beams, false) - glass.reflected_front * returned).abs() < 1e-7, "{outside} {side:?}");
-                assert!(beams.iter().all(|beam| beam.names.iter().all(|to| to.dot(name) > 1.0 - 1e-12)));
-                assert!(made.scattered(name, side, &front_basis()).transmitted.is_empty());
+                assert!(beams.iter().all(|beam| beam.directions.iter().all(|to| to.dot(direction) > 1.0 - 1e-12)));
+                assert!(made.scattered(direction, side, &front_basis()).transmitted.is_empty());
             }
         }
     }
@@ -81,11 +81,11 @@ fn a_pane_and_black_holes_are_a_product() {
 #[test]
 fn panes_as_layers_follow_their_geometric_series() {
     let two = Stack::new(vec![pane(GREY), pane(CLEAR)]);
-    for name in names() {
-        let [a, b] = [GREY, CLEAR].map(|pane| stack(&[pane], name.theta()));
+    for direction in directions() {
+        let [a, b] = [GREY, CLEAR].map(|pane| stack(&[pane], direction.theta()));
         let between = 1.0 - a.reflected_front * b.reflected_front;
         for side in Side::BOTH {
-            let beams = two.beams(name, side);
+            let beams = two.beams(direction, side);
             let (first, last) = if side == Side::Front { (a, b) } else { (b, a) };
             let back = first.reflected_front + first.transmitted.powi(2) * last.reflected_front / between;
             assert!((sum(&beams, true) - a.transmitted * b.transmitted / between).abs() < 2e-7);
@@ -119,10 +119,10 @@ fn nothing_is_lost_where_nothing_absorbs() {
         vec![lambertian(0.4, 0.6), panel(), pane(CLEAR)],
     ] {
         let made = Stack::new(layers);
-        for name in names().step_by(4) {
+        for direction in directions().step_by(4) {
             for side in Side::BOTH {
-                let beams = made.beams(name, side);
-                let found = made.scattered(name, side, &cells);
+                let beams = made.beams(direction, side);
+                let found = made.scattered(direction, side, &cells);
                 let all = sum(&beams, true)
                     + sum(&beams, false)
                     + flux(&cells, &found.transmitted)
@@ -137,19 +137,20 @@ fn nothing_is_lost_where_nothing_absorbs() {
 fn beams_go_back_the_way_they_came() {
     // Light of a to b from outside is light of b to a from inside; a half turn for what is thrown back.
     let made = Stack::new(vec![panel(), STRANDS.optical_model("").unwrap(), pane(GREY), panel()]);
-    let turned = |name: Dir<Facade>| super::super::passage::half_turn(name);
-    for name in names().skip(1) {
+    let turned = |direction: Dir<Facade>| super::super::passage::half_turn(direction);
+    for direction in directions().skip(1) {
         for side in Side::BOTH {
-            for beam in made.beams(name, side) {
-                let to = beam.names[0];
+            for beam in made.beams(direction, side) {
+                let to = beam.directions[0];
                 let (other, from, back) = match (beam.transmitted, side) {
-                    (true, Side::Front) => (Side::Back, to, name),
-                    (true, Side::Back) => (Side::Front, to, name),
-                    (false, side) => (side, turned(to), turned(name)),
+                    (true, Side::Front) => (Side::Back, to, direction),
+                    (true, Side::Back) => (Side::Front, to, direction),
+                    (false, side) => (side, turned(to), turned(direction)),
                 };
                 let beams = made.beams(from, other);
                 let found = beams.iter().find(|twin| {
-                    twin.transmitted == beam.transmitted && (twin.names[0].vector() - back.vector()).length() < 1e-7
+                    twin.transmitted == beam.transmitted
+                        && (twin.directions[0].vector() - back.vector()).length() < 1e-7
                 });
                 let share = found.map_or(0.0, |twin| twin.share);
                 assert!((share - beam.share).abs() < 3e-6, "{side:?} {beam:?} {share}");
@@ -175,12 +176,13 @@ fn the_mean_of_single_directions_is_what_is_measured() {
         for side in Side::BOTH {
             let seen = measured.seen(side);
             for i in [0, 33, 47, 70, 88, 105] {
-                let names: Vec<_> = sub_directions(&cells.cell(i), 4).collect();
-                let found = at_directions(&made, side, &names, &cells, &Silent).unwrap();
+                let directions: Vec<_> = sub_directions(&cells.cell(i), 4).collect();
+                let found = at_directions(&made, side, &directions, &cells, &Silent).unwrap();
                 for (rows, row) in [(&found.transmitted, &seen.transmitted), (&found.reflected, &seen.reflected)] {
                     let mut apart = 0.0;
                     for (o, weight) in weight.iter().enumerate() {
-                        let mean = (0..names.len()).map(|k| rows[k * n + o]).sum::<f64>() / names.len() as f64;
+                        let mean =
+                            (0..directions.len()).map(|k| rows[k * n + o]).sum::<f64>() / directions.len() as f64;
                         apart += (mean - row[i * n + o]).abs() * weight;
                     }
                     assert!(apart < 0.03, "{side:?} {i}: {apart}");
@@ -207,10 +209,10 @@ fn a_pane_before_a_blind_has_the_measured_totals() {
         for side in Side::BOTH {
             let seen = measured.seen(side);
             for i in [0, 33, 47, 88] {
-                let names: Vec<_> = sub_directions(&cells.cell(i), 4).collect();
-                let found = at_directions(&made, side, &names, &cells, &Silent).unwrap();
+                let directions: Vec<_> = sub_directions(&cells.cell(i), 4).collect();
+                let found = at_directions(&made, side, &directions, &cells, &Silent).unwrap();
                 for (rows, row) in [(&found.transmitted, &seen.transmitted), (&found.reflected, &seen.reflected)] {
-                    let mean = rows.chunks_exact(n).map(|row| flux(&cells, row)).sum::<f64>() / names.len() as f64;
+                    let mean = rows.chunks_exact(n).map(|row| flux(&cells, row)).sum::<f64>() / directions.len() as f64;
                     let due = flux(&cells, &row[i * n..(i + 1) * n]);
                     assert!((mean - due).abs() < 0.01, "{side:?} {i}: {mean} {due}");
                 }
