@@ -378,7 +378,7 @@ pub fn estimate([own, less, more]: [f64; 3]) -> Estimate {
     Estimate { value: own, error: (less - own).abs().max((more - own).abs()) }
 }
 
-/// Returns all metrics of a year, in the order of [`METRICS`], one observer or level after the other. `figures`:
+/// Returns all metrics of a year, in the order of the table of figures, one observer or level after the other. `figures`:
 /// figures of the year as computed, with less and with more light.
 pub fn metrics(year: &Year, figures: &[Figures; 3]) -> Vec<Entry> {
     let entry = |metric: &'static Metric, index: usize| {
