@@ -12,7 +12,7 @@ use std::f64::consts::PI;
 
 /// Numbers of rings and sectors of incident directions, of equal projected solid angle, for sums over the upper
 /// quarter-sphere. Chosen: about four directions per Klems patch. Held by
-/// `tests/catalogue/builtin.rs::figures_computed_anew_are_those_of_the_table`, like all constants of these figures.
+/// `tests/catalogue/builtin.rs`, which compares computed figures with those of the table, like all constants of these figures.
 const SKY: [usize; 2] = [12, 24];
 /// Number of points across a cell that the horizon divides. Chosen: cost; even, so that a cell centred on the horizon
 /// is halved exactly.

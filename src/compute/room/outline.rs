@@ -54,7 +54,7 @@ impl Outline {
 }
 
 /// Maximum number of sampling points along each side of a piece. Chosen: cost; fluxes are scaled to be exact; held by
-/// the tests `halves_make_the_whole` (8e-3) and `whatever_an_outline_throws_arrives`.
+/// the tests below, which allow 8e-3 for halves of an outline.
 const MOST_POINTS: usize = 6;
 
 /// Returns the number of sampling points along each side of a piece of `size` \[m\] at `distance` \[m\] from the

@@ -12,8 +12,7 @@ const NODES: usize = 3;
 const TRIES: [[f64; 2]; 5] = [[0.28, 0.73], [0.98, 0.33], [0.36, 0.02], [0.02, 0.62], [0.65, 0.98]];
 
 /// Share of the mean misfit at these points that remains in sums over many points, where positive and negative misfits
-/// cancel. Chosen; stated errors with it are held by `tests/scenes/exchange.rs` and
-/// `tests/scenes/reference_kit.rs::what_stands_outside`.
+/// cancel. Chosen; stated errors with it are held by `tests/scenes/exchange.rs` and the kit of obstructions.
 const TRIED_SHARE: f64 = 0.3;
 
 /// Rectangle on a face: lower and upper limit along both axes of its coordinates. \[m\]

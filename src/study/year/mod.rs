@@ -19,7 +19,8 @@
 //! | `opening` | exposure to sunlight and view out, without light |
 //! | `figures` | annual figures with errors |
 //! | `metrics` | the annual metrics, one entry each |
-//! | `metric` | what an entry says, and metrics of a year by key |
+//! | `metric` | definition of an annual metric |
+//! | `entries` | annual metrics by key, with their values in a year |
 //! | `annual` | a year with its figures, and the part of the scene that it depends on |
 //! | `look` | view of a year: page and displayed quantity |
 //! | `maps` | hours of a year as a map |
@@ -32,6 +33,7 @@
 mod annual;
 mod dgp;
 mod direct_sun;
+mod entries;
 mod eye_light;
 mod figures;
 mod fixed;
@@ -54,6 +56,7 @@ mod through;
 
 pub use annual::{Annual, at_step, question};
 pub use dgp::Dgp;
+pub use entries::{Entry, estimate, metric, metrics, scales};
 pub use figures::{Figures, SolarFigures, figures};
 pub use indoor::Indoor;
 pub use lamps::{Day, day, day_plot, day_words, months, sunniest};
@@ -61,7 +64,7 @@ pub use light::Light;
 pub use lm83::{Group, Lm83, SHADE};
 pub use look::{Look, Page, Shows};
 pub use maps::{choices, csv_column, error, map, title, weather_map};
-pub use metric::{Entry, Metric, Need, Quantity, Scale, Section, SumOver, estimate, metric, metrics, scales};
+pub use metric::{Metric, Need, Quantity, Scale, Section, SumOver};
 pub use opening::{NOT_JUDGED, Opening, opening};
 pub use resume::{Kept, STORE_DELAY};
 pub use settings::{Settings, settings};

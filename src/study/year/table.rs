@@ -1,8 +1,9 @@
 //! Table of the annual figures with labels: value, error, and compliance with limits.
 
 use super::Annual;
+use super::entries::{Entry, metrics};
 use super::maps::states;
-use super::metric::{Entry, Quantity, Section, metrics};
+use super::metric::{Quantity, Section};
 use crate::compute::estimate::Estimate;
 use crate::texts::{Text, fixed, year as say};
 
