@@ -265,7 +265,7 @@ texts! {
     const BEING_COMPUTED = "being computed" | "wird berechnet";
     const SURFACES_COMING = "the surfaces are being computed…" | "die Flächen werden berechnet…";
     const DISTANCE = "distance from the façade" | "Abstand von der Fassade";
-    fn in_row(sign, row, rows) = "{sign}, sensor row {row} of {rows}" | "{sign}, Punktreihe {row} von {rows}";
+    fn in_row(sign, row, rows) = "{sign}, row {row} of {rows}" | "{sign}, Reihe {row} von {rows}";
     const TOTAL = "total" | "gesamt";
     fn metres_deep(depth) = "depth {depth} m · " | "{depth} m tief · ";
     fn error_parts(all, computed, data) = " ± {all} ({computed} computation, {data} data)" | " ± {all} ({computed} Rechnung, {data} Daten)";
