@@ -166,10 +166,10 @@ texts! {
     const WORK_ZONE = "work zone" | "Arbeit";
     const FLOOR = "floor" | "Boden";
     const NOTHING_TRANSMITTED = "Nothing is transmitted." | "Nichts wird durchgelassen.";
-    fn of_transmitted_ceiling(all, share) = "{all} % of the light is transmitted, {share} % to the ceiling." | "{all} % des Lichts gehen hindurch, {share} % zur Decke.";
-    fn of_transmitted_eye(all, share) = "{all} % of the light is transmitted, {share} % to the eye zone." | "{all} % des Lichts gehen hindurch, {share} % auf Augenhöhe.";
-    fn of_transmitted_work(all, share) = "{all} % of the light is transmitted, {share} % to the work zone." | "{all} % des Lichts gehen hindurch, {share} % in den Arbeitsbereich.";
-    fn of_transmitted_floor(all, share) = "{all} % of the light is transmitted, {share} % to the floor." | "{all} % des Lichts gehen hindurch, {share} % zum Boden.";
+    fn of_transmitted_ceiling(all, share) = "Of {all} % transmitted, {share} goes to the ceiling." | "Von {all} % gehen {share} zur Decke.";
+    fn of_transmitted_eye(all, share) = "Of {all} % transmitted, {share} goes to the eye zone." | "Von {all} % gehen {share} auf Augenhöhe.";
+    fn of_transmitted_work(all, share) = "Of {all} % transmitted, {share} goes to the work zone." | "Von {all} % gehen {share} in den Arbeitsbereich.";
+    fn of_transmitted_floor(all, share) = "Of {all} % transmitted, {share} goes to the floor." | "Von {all} % gehen {share} zum Boden.";
     fn split_line(ceiling, eye, work, floor) = "ceiling {ceiling} · eye zone {eye} · work zone {work} · floor {floor} %" | "Decke {ceiling} · Augenhöhe {eye} · Arbeitsbereich {work} · Boden {floor} %";
     fn split_line_short(ceiling, eye, work, floor) = "ceiling {ceiling}, eye {eye}, work {work}, floor {floor} %" | "Decke {ceiling}, Augen {eye}, Arbeit {work}, Boden {floor} %";
     fn split_most(share, all, zone) = "{share} of {all} % to the {zone}" | "{share} von {all} %: {zone}";
@@ -265,7 +265,7 @@ texts! {
     const BEING_COMPUTED = "being computed" | "wird berechnet";
     const SURFACES_COMING = "the surfaces are being computed…" | "die Flächen werden berechnet…";
     const DISTANCE = "distance from the façade" | "Abstand von der Fassade";
-    fn in_row(sign, row, rows) = "{sign}, row {row} of {rows}" | "{sign}, Reihe {row} von {rows}";
+    fn in_row(sign, row, rows) = "{sign} in row {row} of {rows}" | "{sign} in Reihe {row} von {rows}";
     const TOTAL = "total" | "gesamt";
     fn metres_deep(depth) = "depth {depth} m · " | "{depth} m tief · ";
     fn error_parts(all, computed, data) = " ± {all} ({computed} computation, {data} data)" | " ± {all} ({computed} Rechnung, {data} Daten)";
