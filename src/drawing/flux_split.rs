@@ -40,7 +40,7 @@ impl FluxSplit {
         (0..4).fold(0, |best, zone| if parts[zone].1 > parts[best].1 { zone } else { best })
     }
 
-    /// Returns a sentence on the zone with the largest share, as "41 % of the light is transmitted, 28 % to the
+    /// Returns a sentence on the zone with the largest share, as "Of 41 % transmitted, 28 goes to the
     /// ceiling."
     pub fn sentence(&self) -> String {
         if self.total() <= 0.0 {
