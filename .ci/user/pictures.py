@@ -186,4 +186,5 @@ def main():
         session.desk.kill()
 
 
-main()
+if __name__ == "__main__":
+    main()

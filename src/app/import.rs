@@ -120,7 +120,9 @@ impl Proposed {
 
     /// Returns the reason why the product cannot be stored yet, as a sentence; `None` if it can.
     pub fn problem(&self) -> Option<String> {
-        if let Some(place) = (0..self.datasets.len()).find(|&place| !transmits(&self.datasets[place])) {
+        if let Some(place) =
+            (0..self.datasets.len()).find(|&place| self.datasets[place].transmission_of_either_side().is_none())
+        {
             let file = self.sources.get(place).map_or("", String::as_str);
             return Some(text::no_transmission(file).trim().to_owned());
         }
@@ -196,11 +198,6 @@ impl Proposed {
         let parts = order.iter().flat_map(|&place| self.parts.get(place).into_iter().flatten());
         parts.filter_map(|&part| self.files.get(part).cloned()).collect()
     }
-}
-
-/// Whether a dataset has a visible transmission.
-fn transmits(dataset: &Dataset) -> bool {
-    dataset.transmission().or(dataset.visible.transmission_back.as_ref()).is_some()
 }
 
 /// Returns a count with its noun as text, in the singular (`one`) or plural (`more`).

@@ -308,10 +308,7 @@ pub fn rearranged(mut import: Import, shelf: Option<&dyn Shelf>, progress: &dyn 
 
 /// Returns the hemispherical visible transmittance of each dataset; `None` without a transmission.
 fn taus(datasets: &[Arc<Dataset>]) -> Vec<Option<f64>> {
-    let tau = |dataset: &Arc<Dataset>| {
-        let visible = &dataset.visible;
-        Some(visible.transmission_front.as_ref().or(visible.transmission_back.as_ref())?.tau_hemispherical())
-    };
+    let tau = |dataset: &Arc<Dataset>| Some(dataset.transmission_of_either_side()?.tau_hemispherical());
     datasets.iter().map(tau).collect()
 }
 

@@ -42,8 +42,7 @@ pub(super) fn speaks_of_slats(text: &str) -> bool {
 /// transmission.
 fn light(file: &SourceFile) -> Option<f64> {
     let [dataset] = file.datasets.as_slice() else { return None };
-    let visible = &dataset.visible;
-    visible.transmission_front.as_ref().or(visible.transmission_back.as_ref()).map(|btdf| btdf.tau_hemispherical())
+    dataset.transmission_of_either_side().map(|btdf| btdf.tau_hemispherical())
 }
 
 /// Trend of the hemispherical transmittance over the files of a family, by rising number in their names, which may be

@@ -117,7 +117,7 @@ struct Ready {
 fn ready(given: &Dataset, named: StateName, ask: fn(&Dataset) -> Vec<Finding>) -> Result<Ready, CatalogueError> {
     let Packed { hash, blob, content, dataset } = packed(given)?;
     let own = ask(&dataset);
-    let Some(transmission) = dataset.transmission().or(dataset.visible.transmission_back.as_ref()) else {
+    let Some(transmission) = dataset.transmission_of_either_side() else {
         return Err(CatalogueError::Import(format!("dataset \"{}\" has no visible transmission", dataset.name)));
     };
     let mut findings = dataset.findings.clone();

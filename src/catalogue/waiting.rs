@@ -5,7 +5,7 @@ use super::record::{Packed, Record, figured, light, named_state, packed};
 use super::store::{insert_findings, put_blob, read_product};
 use super::verified::{blob_of, seal_rows, sealed};
 use super::{Catalogue, CatalogueError, Product, ProductFinding, State, StateName};
-use crate::compute::btdf::{Btdf, Dataset, LightFigures};
+use crate::compute::btdf::{Dataset, LightFigures};
 use crate::compute::estimate::Progress;
 use crate::formats::dataset_blob::decode;
 use rusqlite::{OptionalExtension, Transaction, params};
@@ -18,11 +18,6 @@ pub struct StateKey {
     pub product: String,
     /// Key of the state; empty for a product with a single state without key.
     pub state: String,
-}
-
-/// Returns the transmission for light from outside, or for light from inside where only that is known.
-fn transmission(dataset: &Dataset) -> Option<&Btdf> {
-    dataset.transmission().or(dataset.visible.transmission_back.as_ref())
 }
 
 impl Catalogue {
@@ -83,7 +78,7 @@ impl Catalogue {
         // Packed before the lock is taken, so that other connections do not wait for it.
         let Packed { hash, blob, dataset: read, .. } = packed(dataset)?;
         let wanted = |what: &str| CatalogueError::Import(format!("dataset \"{}\" has no {what}", dataset.name));
-        let transmission = transmission(&read).ok_or_else(|| wanted("visible transmission"))?;
+        let transmission = read.transmission_of_either_side().ok_or_else(|| wanted("visible transmission"))?;
         let named = named_state(&dataset.state, StateName::default());
         let state = State { dataset: Some(hash), ..figured(named, transmission, dataset.described.as_ref()) };
         let findings: Vec<ProductFinding> = read
@@ -122,7 +117,7 @@ impl Catalogue {
                 break;
             }
             let Some(dataset) = blob_of(&self.db, hash).ok().and_then(|blob| decode(&blob).ok()) else { continue };
-            let Some(transmission) = transmission(&dataset) else { continue };
+            let Some(transmission) = dataset.transmission_of_either_side() else { continue };
             let figures = light(transmission, described_state(system, state).as_ref());
             let tx = self.change()?;
             if read_product(&tx, product).and_then(|product| sealed(&tx, product)).is_err() {

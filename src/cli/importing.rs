@@ -22,8 +22,8 @@ Examples:
 
 Prints the keys of the products. Without --group and --name, files that differ by an angle alone, in their names or \
 contents, become the states of one product; .btdf.txt files of one state are joined; every other file becomes a \
-product. Everything is imported in one step. A file that cannot be read is an error if only files were named; in a \
-folder or zip archive it is skipped, with a warning.")]
+product. Everything is imported in one step. A file that cannot be read, or a product without visible transmission, is \
+an error if only files were named; in a folder or zip archive it is skipped, with a warning.")]
 pub struct ImportArgs {
     /// Dataset files (.xml, .btdf.txt, .cfsd), packages (.cfsp), and folders or zip archives of them
     #[arg(required = true)]
@@ -137,13 +137,23 @@ fn report_files(taken: &Taken) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// Returns why a product cannot be stored: the file of its first state without visible transmission, such as a
+/// reflector, with what is expected. `paths`: path of each file, by its name.
+fn without_transmission(product: &Gathered, paths: &HashMap<String, String>) -> Option<String> {
+    let place = product.datasets.iter().position(|dataset| dataset.transmission_of_either_side().is_none())?;
+    let file = paths.get(&product.sources[place]).unwrap_or(&product.file_stem);
+    Some(format!("{file}: no visible transmission; expected data of light that passes through the system"))
+}
+
 /// Adds the products of files, folders and archives to the catalogue, in one transaction, and prints their keys.
 pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Result<()> {
     // Everything is read before anything is stored.
     let taken = import_files(&args.files, SourceFile::read, &Silent);
-    let several = |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("zip"));
+    let is_container =
+        |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|end| end.eq_ignore_ascii_case("zip"));
     // One bad file among many does not stop the others; one that was asked for by name does.
-    if let Some(failure) = taken.failures.first().filter(|_| !args.files.iter().any(several)) {
+    let several = args.files.iter().any(is_container);
+    if let Some(failure) = taken.failures.first().filter(|_| !several) {
         bail!("{failure}");
     }
     report_files(&taken)?;
@@ -157,6 +167,13 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
         .map(|file| (file.name.clone(), Path::new(&file.folder).join(&file.name).display().to_string()))
         .collect();
     for product in gather(taken.sources, if args.name.is_empty() { args.group.grouping() } else { Grouping::One }) {
+        if let Some(reason) = without_transmission(&product, &paths) {
+            if !several {
+                bail!("{reason}");
+            }
+            report!("warning: not imported: {reason}");
+            continue;
+        }
         let mut product = described(args, product);
         if let Some(ambiguity) = &product.ambiguity {
             report!("question: {}: {} (--group each, or one, answers)", product.meta.name, ambiguity.question());

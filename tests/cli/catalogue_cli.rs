@@ -63,6 +63,32 @@ fn products_go_out_and_in_again() {
     assert!(run(&CatalogueArgs { action: Action::Validate(absent) }, Some(&other)).is_err());
 }
 
+#[test]
+fn a_reflector_among_others_does_not_stop_their_import() {
+    use cfs::catalogue::{Catalogue, Query};
+    let folder = tempfile::tempdir().unwrap();
+    let blind = std::fs::read_to_string("tests/reference/cases/stranger/sample_1.xml").unwrap();
+    let mut functions = blind.split_inclusive("<WavelengthData>");
+    let head = functions.next().unwrap().to_owned();
+    let reflector = head + &functions.filter(|function| !function.contains("Transmission")).collect::<String>();
+    let (blinds, alone) = (folder.path().join("given"), folder.path().join("given/reflector.xml"));
+    std::fs::create_dir(&blinds).unwrap();
+    std::fs::write(blinds.join("blind.xml"), blind).unwrap();
+    std::fs::write(&alone, reflector).unwrap();
+    let file = folder.path().join("catalogue.sqlite");
+    let each = |path: &Path| {
+        let CatalogueArgs { action: Action::Import(args) } = import(&[path.to_owned()]) else { unreachable!() };
+        let args = ImportArgs { name: String::new(), group: Group::Each, ..args };
+        run(&CatalogueArgs { action: Action::Import(args) }, Some(&file))
+    };
+    let products = || Catalogue::open(&file).unwrap().search(&Query::default()).unwrap().len();
+    let error = each(&alone).unwrap_err().to_string();
+    assert!(error.contains("reflector.xml: no visible transmission; expected"), "{error}");
+    let before = products();
+    each(&blinds).unwrap();
+    assert_eq!(products(), before + 1);
+}
+
 /// The program on a catalogue of its own: what it says on standard output and on standard error.
 fn cfs(file: &Path, arguments: &[&str]) -> (String, String) {
     let output = std::process::Command::new(env!("CARGO_BIN_EXE_cfs"))

@@ -148,6 +148,12 @@ impl Dataset {
         self.visible.transmission_front.as_ref()
     }
 
+    /// Returns the visible transmission of light from outside, or of light from inside where only that is known; `None`
+    /// for a dataset of reflections alone.
+    pub fn transmission_of_either_side(&self) -> Option<&Btdf> {
+        self.transmission().or(self.visible.transmission_back.as_ref())
+    }
+
     /// Returns the diffuse reflectance of the room side under uniform light; `None` if the dataset does not contain it.
     pub fn room_side_reflectance(&self) -> Option<f64> {
         self.visible.reflection_back.as_ref().map(|btdf| btdf.tau_hemispherical().clamp(0.0, 1.0))

@@ -12,7 +12,7 @@ const PATCHES: f64 = 0.07;
 
 /// Returns a finding that states the angular resolution and the calculations that it suffices for.
 pub(super) fn check(dataset: &Dataset) -> Option<Diagnosis> {
-    let btdf = dataset.transmission().or(dataset.visible.transmission_back.as_ref())?;
+    let btdf = dataset.transmission_of_either_side()?;
     let side = |count: usize| (2.0 * std::f64::consts::PI / count as f64).sqrt();
     let (what, width) = match btdf.scattered.as_ref() {
         None => ("Regular transmission only".to_owned(), 0.0),
