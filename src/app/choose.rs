@@ -64,8 +64,9 @@ pub struct Asking<'a> {
     pub catalogue: [&'a [usize]; 2],
 }
 
-/// Returns the indices of the apertures for which products are ranked: the chosen one; else those without a system in
-/// the scene, those with a product of the catalogue, or the first.
+/// Returns the indices of the apertures for which products are ranked: the chosen one. If none is chosen: all
+/// without a system in the scene; if there are none, all with a product of the catalogue; if there are none either, the
+/// first.
 pub fn ranked_apertures(scene: &SceneFile, chosen: Option<usize>) -> Vec<usize> {
     let all = |fits: fn(&SystemKeys) -> bool| -> Vec<usize> {
         (0..scene.aperture.len()).filter(|&place| fits(&scene.aperture[place].system)).collect()

@@ -23,7 +23,7 @@ pub struct Facets {
     pub tags: Vec<Facet>,
     /// Collections of the user.
     pub collections: Vec<Facet>,
-    /// Number of products shown most recently, see [`Query::shown`](super::Query::shown).
+    /// Number of found products that the user viewed recently, see [`Query::shown`](super::Query::shown).
     pub recent: usize,
     /// Origins of the data, as keys: measured, computed, unknown.
     pub origins: Vec<Facet>,

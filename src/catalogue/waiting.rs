@@ -143,7 +143,9 @@ pub(super) fn set_light(
     seal_rows(tx, product)
 }
 
-/// Adds dataset and figures to a state that lacks them; does nothing if it has them.
+/// Adds dataset and figures to a state of a built-in product that lacks them; does nothing if it has them, or if the
+/// product was made from another description. The seal of the product (hash of its rows) is checked before and renewed
+/// after.
 fn fill(
     tx: &Transaction<'_>,
     product: &Product,

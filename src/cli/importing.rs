@@ -109,7 +109,7 @@ fn kept(args: &ImportArgs, dataset: &Dataset) -> anyhow::Result<Dataset> {
         Some(Compactness::Archive) => Storage::Compact(Criterion::ARCHIVE),
         Some(Compactness::Normal) => Storage::Compact(Criterion::NORMAL),
     };
-    stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps them as they are"))
+    stored_as(dataset, storage).map_err(|error| anyhow!("{error}; --compact lossless keeps all values unchanged"))
 }
 
 /// Prints on standard error which files are skipped, cannot be read, or contain the same data. Returns an error for a

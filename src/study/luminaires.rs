@@ -195,7 +195,11 @@ fn surface_of(rows: &[Row]) -> Surface {
 /// Checks that a luminaire file agrees with its row of the index.
 fn check(path: &Path, luminaire: &Luminaire, row: &Row, aim: Aim) -> Result<(), StudyError> {
     if luminaire.photometry != Photometry::C {
-        return Err(wrong(path, "planes that are not of type C: what they turn about here is not known".to_owned()));
+        return Err(wrong(
+            path,
+            "photometric planes of type A or B, whose axis in the aperture is not defined; expected planes of type C"
+                .to_owned(),
+        ));
     }
     let flux = luminaire.flux();
     if (flux - row.flux).abs() > SAME_FLUX * flux.abs().max(row.flux.abs()) {

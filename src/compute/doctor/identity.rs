@@ -37,7 +37,7 @@ fn template(word: &str) -> bool {
 
 /// Returns findings about placeholders for product and maker, and about an impossible thickness.
 pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
-    // Closed forms are named by whoever stores them.
+    // Datasets given by a formula come from no file (empty format); they get their name when they are stored.
     if dataset.format.is_empty() {
         return Vec::new();
     }
