@@ -129,6 +129,15 @@ pub struct ProductFinding {
     pub message: String,
 }
 
+impl ProductFinding {
+    /// Returns the finding as a line that begins with severity and state, such as "warning 45: …"; "warning: …" for a
+    /// state without a key.
+    pub fn line(&self) -> String {
+        let begin = [self.severity.word(), &self.state].join(" ");
+        format!("{}: {}", begin.trim_end(), self.message)
+    }
+}
+
 /// Product of the catalogue, with everything but its datasets.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Product {

@@ -226,7 +226,7 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         }
     }
     for finding in &product.findings {
-        writeln!(text, "  {} {}: {}", finding.severity.word(), one_line(&finding.state), one_line(&finding.message))?;
+        writeln!(text, "  {}", one_line(&finding.line()))?;
     }
     print_text(&text)
 }

@@ -138,11 +138,16 @@ fn report_files(taken: &Taken) -> anyhow::Result<()> {
 }
 
 /// Returns why a product cannot be stored: the file of its first state without visible transmission, such as a
-/// reflector, with what is expected. `paths`: path of each file, by its name.
+/// reflector, with what is expected and how many other states are lost with it. `paths`: path of each file, by its
+/// name.
 fn without_transmission(product: &Gathered, paths: &HashMap<String, String>) -> Option<String> {
     let place = product.datasets.iter().position(|dataset| dataset.transmission_of_either_side().is_none())?;
     let file = paths.get(&product.sources[place]).unwrap_or(&product.file_stem);
-    Some(format!("{file}: no visible transmission; expected data of light that passes through the system"))
+    let with_it = match product.datasets.len() - 1 {
+        0 => String::new(),
+        others => format!("; the other states of the product are not imported either: {others}"),
+    };
+    Some(format!("{file}: no visible transmission; expected data of light that passes through the system{with_it}"))
 }
 
 /// Adds the products of files, folders and archives to the catalogue, in one transaction, and prints their keys.
@@ -196,7 +201,7 @@ pub(super) fn import(catalogue: &mut Catalogue, args: &ImportArgs) -> anyhow::Re
             report!("note: the same data are already in {}", product.same_content_as.join(", "));
         }
         for finding in catalogue.product(&product.key)?.findings {
-            report!("{}: {} {}", finding.severity.word(), finding.state, finding.message);
+            report!("{}: {}", product.key, finding.line());
         }
     }
     print_text(&text)

@@ -77,7 +77,7 @@ pub(super) fn validate(catalogue: &Catalogue, args: &ValidateArgs) -> anyhow::Re
             let worst = judged.iter().map(|one| one.finding.severity).max();
             writeln!(text, "{item}: {}", worst.filter(|worst| *worst > Severity::Info).map_or("ok", Severity::word))?;
             for Judged { finding, repair } in judged {
-                writeln!(text, "  {} {}: {}", finding.severity.word(), finding.state, finding.message)?;
+                writeln!(text, "  {}", finding.line())?;
                 if let Some(repair) = repair {
                     writeln!(text, "    offers: --repair {repair}")?;
                 }

@@ -87,6 +87,13 @@ fn a_reflector_among_others_does_not_stop_their_import() {
     let before = products();
     each(&blinds).unwrap();
     assert_eq!(products(), before + 1);
+    // Every line names its product, and a state without a key leaves no gap.
+    let (keys, said) = cfs(&folder.path().join("other.sqlite"), &["catalogue", "import", blinds.to_str().unwrap()]);
+    assert!(said.contains("warning: not imported: ") && said.contains(&format!("{}: info: ", keys.trim())), "{said}");
+    // As a state of one product it takes the others with it, and that is said.
+    let said = run(&import(&[blinds.join("blind.xml"), alone]), Some(&file)).unwrap_err().to_string();
+    assert!(said.contains("other states of the product are not imported either: 1"), "{said}");
+    assert_eq!(products(), before + 1);
 }
 
 /// The program on a catalogue of its own: what it says on standard output and on standard error.
