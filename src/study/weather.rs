@@ -9,6 +9,7 @@ use crate::formats::weather;
 use crate::texts::year as say;
 use jiff::civil::{Date, DateTime};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
 
@@ -107,6 +108,7 @@ pub fn nearest(place: [f64; 2]) -> &'static BuiltinYear {
 pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     type Known = (PathBuf, Option<(SystemTime, u64)>, Arc<KeptWeather>);
     static KEPT: Mutex<Vec<Known>> = Mutex::new(Vec::new());
+    static NUMBERS: AtomicU64 = AtomicU64::new(0);
     const MOST: usize = 4;
     // Stored values are complete even if another thread has failed while it held the lock.
     let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,7 +120,7 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
     let weather = load(name, base)?;
     let summary =
         weather.examine().map_err(|error| StudyError::File { path: name.into(), message: error.to_string() })?;
-    let made = Arc::new(KeptWeather { weather, summary });
+    let made = Arc::new(KeptWeather { number: NUMBERS.fetch_add(1, Ordering::Relaxed), weather, summary });
     let mut list = kept();
     list.retain(|known| known.0 != path);
     list.truncate(MOST - 1);
@@ -128,6 +130,8 @@ pub fn kept(name: &Path, base: &Path) -> Result<Arc<KeptWeather>, StudyError> {
 
 /// Weather data with their summary, stored while the program runs.
 pub struct KeptWeather {
+    /// Number that no other weather data have.
+    pub number: u64,
     /// Weather data of the file.
     pub weather: Weather,
     /// Summary of the data: test of the file's clock, and findings.

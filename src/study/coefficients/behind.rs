@@ -5,6 +5,7 @@
 //! these patches. Interreflected light depends less on the point at which light enters: nine nodes of the aperture are
 //! enough.
 
+use super::by_node::{ByNode, seen_by_nodes};
 use super::sent::{Luminances, Patch, Sent, lit as lit_cells};
 use super::transport::Column;
 use super::views::Opening;
@@ -28,8 +29,9 @@ use crate::study::error::StudyError;
 use crate::study::scene::Scene;
 use crate::study::session::Session;
 use crate::study::session::seen::{bands_of, check, inside, keeps, within_budget};
-use crate::study::session::sky_year::SkyYear;
-use faer::{ColMut, Mat};
+use crate::study::session::sky_year::{SkyYear, of_moments};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, Mat, Par};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -43,8 +45,6 @@ const CELL_SEEN: usize = 128;
 const NODES: usize = 3;
 /// Number of sensors whose weights are computed together.
 const TOGETHER: usize = 16;
-/// Number of sensors whose interreflected light is summed together. Chosen: memory only, no effect on results.
-const BLOCK: usize = 32;
 
 /// Obstructions in front of the apertures of a scene, prepared for many skies.
 pub(super) struct Behind {
@@ -68,9 +68,10 @@ pub(super) struct Past {
     /// Scattered direct light at the sensors by incident patch, sensor and point of the aperture, per illuminance
     /// through the patch; empty where that would need too much memory.
     by_patch: Vec<OnceLock<Vec<f32>>>,
-    /// Interreflected illuminance at the sensors per illuminance through a patch, by patch, node of the aperture and
-    /// sensor.
-    reflected: Vec<Vec<f32>>,
+    /// Direct illuminances at the sensors per luminance outside: rows of sensors, columns of luminances. \[sr\]
+    direct: Arc<Mat<f32>>,
+    /// Interreflected light.
+    pub reflected: ByNode,
 }
 
 /// Outside and sun at one point in time, which may be an hour of a year.
@@ -101,8 +102,7 @@ impl Behind {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// Prepares an aperture, and returns its table: a column for each luminance outside, with rows of all sensors as in
-    /// [`super::part::Sums`]. `columns`: interreflected light of every incident patch, node by node; `sent`: scattered
+    /// Prepares an aperture. `columns`: interreflected light of every incident patch, node by node; `sent`: scattered
     /// light of the system by incident patch; `regular`: its regular transmittance; `direct`: cache of direct light by
     /// aperture, shared by all meshes of the room.
     ///
@@ -116,53 +116,25 @@ impl Behind {
         sent: Option<Sent>,
         regular: Option<&AngularTransmittance>,
         direct: &Cache<Mat<f32>>,
-    ) -> Result<(Past, Mat<f32>), StudyError> {
-        let (scene, sensors) = (opening.scene, opening.scene.sensors.len());
+    ) -> Result<Past, StudyError> {
+        let scene = opening.scene;
         let aperture = scene.apertures[opening.index].aperture;
         let grid = Grid::of(&aperture);
         let by_point = seen_by_points(opening.session, scene, opening.index, &self.prepared, (grid.places(), patches));
         let cells = sent.as_ref().map_or(0, Sent::count);
         within_budget(scene, 3 * size_of::<f32>() * self.prepared.count() + CELL_SEEN * cells)?;
-        let mut tables: Mat<f32> = Mat::zeros(3 * sensors, self.prepared.count());
-        // Interreflected light.
-        let places = sensors * nodes.count();
-        let by_luminance = || seen_by_nodes(opening, &self.prepared, (&grid, &nodes), patches, &by_point);
-        let by_luminance = if columns.is_empty() { Arc::default() } else { by_luminance() };
-        // The columns hold interreflected light and its uncertainty; all light is the same as interreflected light. One
-        // luminance after the other: its sums stay in the processor's cache.
-        for first in (0..sensors).step_by(BLOCK) {
-            let block = BLOCK.min(sensors - first);
-            let mut light = Vec::with_capacity(nodes.count() * columns.len() * 2 * block);
-            for node in 0..nodes.count() {
-                let rows = columns.iter().flat_map(|column| column.light.chunks_exact(places).skip(1));
-                rows.for_each(|row| light.extend(row[node * sensors + first..][..block].iter().map(|e| *e as f32)));
-            }
-            let summed = |(seen, table): (&Vec<Counts>, ColMut<'_, f32>)| {
-                let mut sums = [0.0_f32; 2 * BLOCK];
-                let sums = &mut sums[..2 * block];
-                wide(|| {
-                    for (node, seen) in seen.iter().enumerate() {
-                        for (p, counts) in seen {
-                            let light = &light[(node * columns.len() + *p as usize) * 2 * block..][..2 * block];
-                            sums.iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
-                        }
-                    }
-                });
-                let table = table.try_as_col_major_mut().expect("columns of a matrix lie in one piece");
-                let rows = table.as_slice_mut().chunks_exact_mut(sensors);
-                for (table, sums) in rows.zip([0, 0, 1].map(|row| &sums[row * block..][..block])) {
-                    table[first..][..block].copy_from_slice(sums);
-                }
-            };
-            by_luminance.par_iter().zip(tables.par_col_iter_mut()).for_each(summed);
-        }
-        let reflected = |column: &Column| {
-            column.light.get(places..2 * places).unwrap_or_default().iter().map(|e| *e as f32).collect()
+        let by_luminance = || seen_by_nodes(&self.prepared, (&grid, &nodes), patches.len(), &by_point);
+        let by_luminance = if columns.is_empty() {
+            Arc::default()
+        } else {
+            let eyes = eyes(scene, grid.places());
+            opening.session.seen_patches((&self.prepared, nodes.count() as u64), &eyes, patches, by_luminance)
         };
+        let reflected = ByNode::new(opening, &nodes, columns, by_luminance);
         let inside: Vec<Sensor> = scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect();
         let [cells, bands] = sent.as_ref().map(|sent| cells_seen(opening, &grid, sent, &inside)).unwrap_or_default();
         let kept = keeps(scene, patches.len() * grid.count() * size_of::<f32>() / size_of::<f64>());
-        let past = Past {
+        let mut past = Past {
             aperture,
             grid,
             nodes,
@@ -171,14 +143,12 @@ impl Behind {
             cells,
             bands,
             by_patch: (0..if kept { patches.len() } else { 0 }).map(|_| OnceLock::new()).collect(),
-            reflected: columns.iter().map(reflected).collect(),
+            direct: Arc::new(Mat::new()),
+            reflected,
             sent,
         };
-        let direct = direct.get(vec![opening.index as u64], || self.direct(opening, &past, &by_point, regular))?;
-        for (to, light) in tables.col_iter_mut().zip(direct.col_iter()) {
-            to.subrows_mut(0, sensors).iter_mut().zip(light.iter()).for_each(|(to, e): (&mut f32, &f32)| *to += e);
-        }
-        Ok((past, tables))
+        past.direct = direct.get(vec![opening.index as u64], || self.direct(opening, &past, &by_point, regular))?;
+        Ok(past)
     }
 
     /// Returns the weights of luminances in direct light: rows of sensors, columns of luminances. \[sr\]
@@ -238,6 +208,24 @@ impl Behind {
 }
 
 impl Past {
+    /// Returns the basis of the incident hemisphere.
+    pub const fn patches(&self) -> &RingBasis {
+        &self.patches
+    }
+
+    /// Computes the diffuse illuminances at the sensors, a column for each list of luminances and rows as in
+    /// [`super::part::Sums`]. \[lx\] `hours`: index of the year's hour of each, where it has one; `at_nodes`: store for
+    /// the light that enters in the hours of the year.
+    pub fn sums(&self, luminances: &Mat<f32>, hours: &[Option<usize>], at_nodes: Option<&SkyYear>) -> Mat<f32> {
+        let sensors = self.sensors.len();
+        let mut all = Mat::zeros(3 * sensors, luminances.ncols());
+        let (mut total, mut reflected) = all.split_at_row_mut(sensors);
+        matmul(total.as_mut(), Accum::Replace, &*self.direct, luminances, 1.0, Par::Seq);
+        self.reflected.light(luminances.as_ref(), hours, at_nodes, reflected.as_mut());
+        total += reflected.subrows(0, sensors);
+        all
+    }
+
     /// Returns the weights of outside luminances in the scattered direct light at sensors from the `first` on,
     /// luminance by luminance. `by_point`: weights of luminances at the points of the aperture, by incident patch;
     /// `count`: number of luminances. \[sr\]
@@ -322,9 +310,9 @@ impl Past {
             let all = seen(&self.aperture.corners());
             if all == 0.0 { 0.0 } else { (lit / all).abs() }
         };
-        let ratio = |light: &mut dyn Iterator<Item = &f32>, on: &[f64]| {
+        let ratio = |light: &mut dyn Iterator<Item = f32>, on: &[f64]| {
             let sums = light.zip(on).fold([0.0; 2], |[lit, all], (e, on)| {
-                let e = f64::from(*e);
+                let e = f64::from(e);
                 [lit + e * on, all + e]
             });
             if sums[1] > 0.0 { (sums[0] / sums[1]).clamp(0.0, 1.0) } else { part.share }
@@ -350,10 +338,9 @@ impl Past {
         };
         let count = self.grid.count();
         let of = |s: usize| {
-            let reflected = self.reflected.get(p).map(Vec::as_slice).unwrap_or_default();
-            let by_room = ratio(&mut reflected.iter().skip(s).step_by(self.sensors.len()), on_nodes);
+            let by_room = ratio(&mut self.reflected.of_patch(p, s), on_nodes);
             let direct = match light.get(s * count..(s + 1) * count) {
-                Some(light) => ratio(&mut light.iter(), on_points),
+                Some(light) => ratio(&mut light.iter().copied(), on_points),
                 None => even(&self.sensors[s]),
             };
             [direct, by_room]
@@ -404,62 +391,31 @@ pub(crate) fn seen_by_points(
     prepared: &Prepared,
     (points, patches): (Vec<DVec3>, &RingBasis),
 ) -> Arc<Vec<Vec<Counts>>> {
-    let eyes: Vec<DVec3> = points.into_iter().map(|point| scene.orientation.to_world(point)).collect();
+    let eyes = eyes(scene, points);
     let frame = Frame::of_aperture(scene.orientation, scene.apertures[index].aperture.surface);
     let find = || eyes.par_iter().map(|eye| prepared.patches(*eye, &frame, patches)).collect();
     session.seen_patches((prepared, 0), &eyes, patches, find)
 }
 
-/// Returns the weights of outside luminances at the nodes of an aperture, by luminance and node a list of incident
-/// patches \[sr\], from those at the points of a grid; computed or stored.
-fn seen_by_nodes(
-    opening: &Opening<'_>,
-    prepared: &Prepared,
-    (grid, nodes): (&Grid, &Nodes),
-    patches: &RingBasis,
-    by_point: &[Vec<Counts>],
-) -> Arc<Vec<Vec<Counts>>> {
-    let eyes: Vec<DVec3> = grid.places().into_iter().map(|point| opening.scene.orientation.to_world(point)).collect();
-    let of_node = |on_node: &Vec<f64>| {
-        let mut seen = SparseSum::new(prepared.count());
-        let of_patch = |p: usize| {
-            for (by_patch, share) in by_point.iter().zip(on_node) {
-                by_patch[p].iter().for_each(|(k, counts)| seen.add(*k as usize, share * f64::from(*counts)));
-            }
-            seen.take()
-        };
-        (0..patches.len()).map(of_patch).collect()
-    };
-    let find = || {
-        let by_node: Vec<Vec<Counts>> = nodes.of_grid(grid).par_iter().map(of_node).collect();
-        let mut by_luminance = vec![vec![Counts::new(); nodes.count()]; prepared.count()];
-        for (node, by_patch) in by_node.iter().enumerate() {
-            for (p, seen) in by_patch.iter().enumerate() {
-                seen.iter().for_each(|(k, counts)| by_luminance[*k as usize][node].push((p as u32, *counts)));
-            }
-        }
-        by_luminance
-    };
-    opening.session.seen_patches((prepared, nodes.count() as u64), &eyes, patches, find)
+/// Returns points of the room frame in the world's axes. \[m\]
+fn eyes(scene: &Scene, points: Vec<DVec3>) -> Vec<DVec3> {
+    points.into_iter().map(|point| scene.orientation.to_world(point)).collect()
 }
 
-/// Returns the outside luminances at several points in time, computed together, or stored for the hours of a year.
-/// \[cd/m²\]
-pub(super) fn luminances(prepared: &Prepared, year: Option<&SkyYear>, moments: &[Moment<'_>]) -> Vec<Vec<f64>> {
-    let kept: Vec<Option<(&SkyYear, usize)>> = moments.iter().map(|moment| Some((year?, moment.hour?))).collect();
-    let missing: Vec<bool> = kept.iter().map(|kept| kept.is_none_or(|(year, hour)| !year.holds(hour))).collect();
-    let asked = moments.iter().zip(&missing).filter(|(_, missing)| **missing);
-    let asked: Vec<_> = asked.map(|(moment, _)| (moment.outside, moment.sun)).collect();
-    let mut found = prepared.luminances(&asked).into_iter();
-    let wide = |light: Vec<f32>| light.into_iter().map(f64::from).collect();
-    let one = |(kept, missing): (Option<(&SkyYear, usize)>, bool)| {
-        let own: Vec<f64> = if missing { found.next().map(wide).unwrap_or_default() } else { Vec::new() };
-        match kept {
-            Some((year, hour)) => year.hour(hour, || own).collect(),
-            None => own,
-        }
+/// Returns the outside luminances at several points in time \[cd/m²\], a column for each, computed together, or stored
+/// for the hours of a year. `columns`: number of columns; those without a point in time are 0.
+pub(super) fn luminances(
+    prepared: &Prepared,
+    year: Option<&SkyYear>,
+    moments: &[Moment<'_>],
+    columns: usize,
+) -> Mat<f32> {
+    let hours: Vec<Option<usize>> = moments.iter().map(|moment| moment.hour).collect();
+    let find = |missing: &[usize]| {
+        let asked: Vec<_> = missing.iter().map(|at| (moments[*at].outside, moments[*at].sun)).collect();
+        prepared.luminances(&asked)
     };
-    kept.into_iter().zip(missing).map(one).collect()
+    of_moments(year, &hours, [prepared.count(), columns], find)
 }
 
 /// Returns the nodes of an aperture at which its interreflected light is computed.

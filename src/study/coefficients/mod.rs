@@ -7,7 +7,7 @@
 //! | `transport` | V·T: sensors by incident direction |
 //! | `described` | V·T of described systems |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
-//! | `behind`, `sent` | V·T·D behind boxes: columns by luminance |
+//! | `behind`, `sent`, `by_node` | V·T·D behind boxes: columns by luminance |
 //! | `straight` | the outside seen by regular transmission |
 //! | `far` | distant skyline: its light, and the directions that it hides |
 //! | `sun_way` | transmission of direct sunlight through a system |
@@ -22,6 +22,7 @@
 
 mod beam;
 mod behind;
+mod by_node;
 mod described;
 mod part;
 mod sent;

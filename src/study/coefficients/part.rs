@@ -46,12 +46,6 @@ pub(super) struct AperturePart {
     year: Option<Arc<SkyYear>>,
     /// Sunlit part of the aperture in the hours of a year, behind boxes.
     sunlit: Option<Arc<SunlitYear>>,
-    /// Table of daylight coefficients. Columns: one for every sky patch, one for the ground and one for the skyline;
-    /// behind boxes one for each luminance of the outside. Rows: all sensors for the diffuse light, except regular
-    /// transmission of an aperture without obstructions; then for its interreflected part, the uncertainty of that
-    /// part, and the uncertainty of the interpolation where there is any (the fields of [`Sums`]). Single precision is
-    /// 10⁻⁶ of the sums.
-    tables: Mat<f32>,
     /// Response of the sensors to light that is scattered by the system.
     pub transport: Transport,
     /// Regular transmittance of the system; `None` if it has none.
@@ -70,12 +64,18 @@ enum Seen {
     /// by sensor.
     Alike {
         patches: Arc<SkyPatches>,
+        /// Table of daylight coefficients. Columns: one for every sky patch, one for the ground and one for the
+        /// skyline. Rows: all sensors for the diffuse light without regular transmission, then for its interreflected
+        /// part, the uncertainty of that part, and the uncertainty of the interpolation where there is any (the fields
+        /// of [`Sums`]). Single precision is 10⁻⁶ of the sums.
+        tables: Mat<f32>,
         straight: Vec<StraightView>,
         /// Moments of what the sensors see by regular transmission in the hours of a year, where they are stored.
         year: Option<Arc<SkyYear>>,
     },
-    /// Luminances of the outside past boxes, which differ between points of the aperture.
-    Behind(Arc<Prepared>, Box<Past>),
+    /// Luminances of the outside past boxes, which differ between points of the aperture; with the light that enters at
+    /// its nodes in the hours of a year, where it is stored.
+    Behind(Arc<Prepared>, Box<Past>, Option<Arc<SkyYear>>),
 }
 
 /// Method by which the light of a sky is evaluated.
@@ -147,7 +147,7 @@ impl AperturePart {
         let model = model.cloned().zip(described).map(|(model, views)| (model, views, by_angle));
         let sun = SunWay::new(opening, btdf, model)?;
         let regular = btdf.regular.as_ref();
-        let (sky, tables, gap) = match behind {
+        let (sky, gap) = match behind {
             Some((behind, direct)) => {
                 let through = described_through(session, scene, index);
                 let nodes = nodes(&scene.apertures[index].aperture);
@@ -164,8 +164,8 @@ impl AperturePart {
                     Some((_, through)) => Some(Sent::described(&through.1)),
                     None => Sent::of_data(session, btdf, scene.interpolation, &patches),
                 };
-                let (past, tables) = behind.past(opening, nodes, (&patches, &columns), sent, regular, direct)?;
-                (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past)), tables, gap)
+                let past = behind.past(opening, nodes, (&patches, &columns), sent, regular, direct)?;
+                (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past), None), gap)
             }
             None => {
                 let (columns, gap) = columns(opening, &transport, &patches, regular)?;
@@ -179,13 +179,12 @@ impl AperturePart {
                     Some(StraightView::new(scene, index, sensor, tau, constants))
                 };
                 let straight = scene.sensors.par_iter().filter_map(view).collect();
-                (Seen::Alike { patches: sky, straight, year: None }, tables, gap)
+                (Seen::Alike { patches: sky, tables, straight, year: None }, gap)
             }
         };
         Ok(Self {
             year: None,
             sunlit: None,
-            tables,
             transport,
             sun,
             regular: btdf.regular.clone(),
@@ -202,7 +201,7 @@ impl AperturePart {
 
     /// Returns the aperture as prepared behind obstructions; `None` without obstructions.
     pub fn past(&self) -> Option<&Past> {
-        if let Seen::Behind(_, past) = &self.sky { Some(past) } else { None }
+        if let Seen::Behind(_, past, _) = &self.sky { Some(past) } else { None }
     }
 
     /// Returns the store for the sunlit part of the aperture in an hour of the year; `None` where the year is not
@@ -217,7 +216,7 @@ impl AperturePart {
             Seen::Alike { patches, straight, .. } => {
                 patches.samples.len() + straight.iter().map(StraightView::directions).sum::<usize>()
             }
-            Seen::Behind(prepared, _) => prepared.count(),
+            Seen::Behind(prepared, ..) => prepared.count(),
         }
     }
 
@@ -225,11 +224,13 @@ impl AperturePart {
     /// other year has, and the number of its hours.
     pub fn keep_year(&mut self, session: &Session, (scene, index): (&Scene, usize), year: (u64, usize)) {
         self.year = match &mut self.sky {
-            Seen::Behind(prepared, _) => {
+            Seen::Behind(prepared, past, at_nodes) => {
+                let numbers = past.reflected.numbers();
+                *at_nodes = session.entering_year(year, prepared.number(), (scene, index), past.patches(), numbers);
                 self.sunlit = Some(session.sunlit_year(year, prepared.number(), (scene, index)));
                 session.sky_year(year, prepared.number(), prepared.count())
             }
-            Seen::Alike { patches, straight, year: seen_year } => {
+            Seen::Alike { patches, straight, year: seen_year, .. } => {
                 let mut hasher = DefaultHasher::new();
                 straight.iter().for_each(|seen| seen.hash(&mut hasher));
                 let moments = straight.iter().map(StraightView::moments).sum();
@@ -239,16 +240,9 @@ impl AperturePart {
         };
     }
 
-    /// Returns the input of the table's columns for one outside, frame and dirt included: illuminance through every
-    /// patch \[lx\], then the luminances of ground and skyline; behind boxes all luminances. \[cd/m²\]
-    fn light(&self, outside: &Outside, way: Way<'_>) -> Vec<f64> {
-        let sky = match &self.sky {
-            Seen::Alike { patches, .. } => patches,
-            Seen::Behind(prepared, _) => {
-                let all = luminances(prepared, self.year.as_deref(), &[way.moment(outside)]).concat();
-                return all.into_iter().map(|luminance| self.clear * luminance).collect();
-            }
-        };
+    /// Returns the input of the table's columns for one outside without boxes, frame and dirt included: illuminance
+    /// through every patch \[lx\], then the luminances of ground and skyline. \[cd/m²\]
+    fn light(&self, sky: &SkyPatches, outside: &Outside, way: Way<'_>) -> Vec<f64> {
         let mut e = Vec::with_capacity(sky.samples.cells().len() + 2);
         match (way, &self.year) {
             (Way::Hour(hour, _), Some(year)) => {
@@ -276,9 +270,14 @@ impl AperturePart {
 
     /// Adds the diffuse illuminance through this aperture at every sensor to `out`. \[lx\]
     pub fn add(&self, scene: &Scene, index: usize, outside: &Outside, way: Way<'_>, out: &mut [f64]) {
-        let light: Vec<f32> = self.light(outside, way).into_iter().map(|e| e as f32).collect();
+        let Seen::Alike { patches, tables, .. } = &self.sky else {
+            let mut sums = [Sums::dark(out.len())];
+            self.add_sums(scene, index, &[(outside, way)], &mut sums);
+            return out.iter_mut().zip(&sums[0].total).for_each(|(sum, e)| *sum += e);
+        };
+        let light: Vec<f32> = self.light(patches, outside, way).into_iter().map(|e| e as f32).collect();
         let mut all = vec![0.0_f32; scene.sensors.len()];
-        let table = self.tables.subrows(0, all.len());
+        let table = tables.subrows(0, all.len());
         matmul(ColMut::from_slice_mut(&mut all), Accum::Replace, table, ColRef::from_slice(&light), 1.0, Par::Seq);
         out.iter_mut().zip(all).for_each(|(sum, e)| *sum += f64::from(e));
         self.add_seen(scene, index, outside, way, out);
@@ -317,26 +316,29 @@ impl AperturePart {
     pub fn add_sums(&self, scene: &Scene, index: usize, skies: &[(&Outside, Way<'_>)], sums: &mut [Sums]) {
         for (skies, sums) in skies.chunks(TOGETHER).zip(sums.chunks_mut(TOGETHER)) {
             let columns = skies.len().next_multiple_of(COLUMNS);
-            let mut light = Mat::zeros(self.tables.ncols(), columns);
-            let lights = match &self.sky {
-                // Together they cost less.
-                Seen::Behind(prepared, _) => {
-                    let moments: Vec<_> = skies.iter().map(|(outside, way)| way.moment(outside)).collect();
-                    luminances(prepared, self.year.as_deref(), &moments)
+            let (all, factor) = match &self.sky {
+                Seen::Alike { patches, tables, .. } => {
+                    let mut light = Mat::zeros(tables.ncols(), columns);
+                    for (to, (outside, way)) in light.col_iter_mut().zip(skies) {
+                        let own = self.light(patches, outside, *way);
+                        to.iter_mut().zip(own).for_each(|(to, e)| *to = e as f32);
+                    }
+                    let mut all: Mat<f32> = Mat::zeros(tables.nrows(), columns);
+                    matmul(all.as_mut(), Accum::Replace, tables, &light, 1.0, Par::Seq);
+                    (all, 1.0)
                 }
-                Seen::Alike { .. } => skies.iter().map(|(outside, way)| self.light(outside, *way)).collect(),
+                Seen::Behind(prepared, past, at_nodes) => {
+                    let moments: Vec<_> = skies.iter().map(|(outside, way)| way.moment(outside)).collect();
+                    let light = luminances(prepared, self.year.as_deref(), &moments, columns);
+                    let hours: Vec<Option<usize>> = moments.iter().map(|moment| moment.hour).collect();
+                    (past.sums(&light, &hours, at_nodes.as_deref()), self.clear)
+                }
             };
-            let factor = if self.past().is_some() { self.clear } else { 1.0 };
-            for (column, light) in light.col_iter_mut().zip(lights) {
-                column.iter_mut().zip(light).for_each(|(to, e)| *to = (factor * e) as f32);
-            }
-            let mut all: Mat<f32> = Mat::zeros(self.tables.nrows(), columns);
-            matmul(all.as_mut(), Accum::Replace, &self.tables, &light, 1.0, Par::Seq);
             for ((found, (outside, way)), sums) in all.col_iter().zip(skies).zip(sums) {
                 let parts =
                     [&mut sums.total, &mut sums.reflected, &mut sums.reflected_uncertainty, &mut sums.interpolated];
                 for (sum, e) in parts.into_iter().flatten().zip(found.iter()) {
-                    *sum += f64::from(*e);
+                    *sum += factor * f64::from(*e);
                 }
                 self.add_seen(scene, index, outside, *way, &mut sums.total);
             }

@@ -110,6 +110,22 @@ impl Session {
         year_of(&self.sky_years, year, fingerprint, patches)
     }
 
+    /// Returns the store for the light that enters at the nodes of an aperture through incident patches in the hours of
+    /// a year, `numbers` values in each; `None` if these are more than can be stored. `prepared`: number of the prepared
+    /// obstructions.
+    pub(crate) fn entering_year(
+        &self,
+        year: (u64, usize),
+        prepared: u64,
+        (scene, index): (&Scene, usize),
+        patches: &RingBasis,
+        numbers: usize,
+    ) -> Option<Arc<SkyYear>> {
+        let mut hasher = DefaultHasher::new();
+        (prepared, aperture_key(scene, index), basis_key(Some(patches))).hash(&mut hasher);
+        year_of(&self.sky_years, year, hasher.finish(), numbers)
+    }
+
     /// Returns the store for the moments of what sensors see by regular transmission in the hours of a year, `moments`
     /// in each; `None` if these are more than can be stored.
     pub(crate) fn seen_year(&self, year: (u64, usize), fingerprint: u64, moments: usize) -> Option<Arc<SkyYear>> {

@@ -2,6 +2,7 @@
 //! of what sensors see by regular transmission.
 
 use crate::compute::room::sunlit_part::SunlitPart;
+use faer::Mat;
 use std::sync::OnceLock;
 
 /// Sunlit part of an aperture in each hour of a year, computed at its first use.
@@ -23,7 +24,36 @@ impl SkyYear {
 
     /// Returns the values of an hour, computed by `find` or stored.
     pub fn hour(&self, hour: usize, find: impl FnOnce() -> Vec<f64>) -> impl Iterator<Item = f64> {
-        let kept = self.0[hour].get_or_init(|| find().into_iter().map(|e| e as f32).collect());
-        kept.iter().map(|&e| f64::from(e))
+        self.single(hour, || find().into_iter().map(|e| e as f32).collect()).iter().map(|&e| f64::from(e))
     }
+
+    fn single(&self, hour: usize, find: impl FnOnce() -> Vec<f32>) -> &[f32] {
+        self.0[hour].get_or_init(|| find().into_boxed_slice())
+    }
+}
+
+/// Returns the values of several moments, a column of `rows` values for each, from the store where they are hours of
+/// its year (`hours`: index of each). The others are computed together: `find` gets their places in the list.
+/// `columns`: number of columns; those without a moment are 0.
+pub(crate) fn of_moments(
+    year: Option<&SkyYear>,
+    hours: &[Option<usize>],
+    [rows, columns]: [usize; 2],
+    find: impl FnOnce(&[usize]) -> Vec<Vec<f32>>,
+) -> Mat<f32> {
+    let kept = |moment: usize| year.zip(hours[moment]);
+    let stored = |moment: usize| kept(moment).is_some_and(|(year, hour)| year.holds(hour));
+    let missing: Vec<usize> = (0..hours.len()).filter(|moment| !stored(*moment)).collect();
+    let mut found = find(&missing).into_iter();
+    let mut missing = missing.into_iter().peekable();
+    let mut values = Mat::zeros(rows, columns);
+    for moment in 0..hours.len() {
+        let own = missing.next_if_eq(&moment).and_then(|_| found.next()).unwrap_or_default();
+        let to = values.col_as_slice_mut(moment);
+        match kept(moment) {
+            Some((year, hour)) => to.copy_from_slice(year.single(hour, || own)),
+            None => to.copy_from_slice(&own),
+        }
+    }
+    values
 }

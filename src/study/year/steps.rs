@@ -10,8 +10,8 @@ use crate::study::weather::{kept, moment};
 use crate::study::weather_keys::reading;
 use crate::study::year_keys::{DaysKey, YearKeys};
 use jiff::civil::DateTime;
+use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::path::Path;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
 
 /// Number of the first weekday that is not a working day, counted from Monday = 0.
@@ -67,16 +67,9 @@ type Sky = (Outside, Option<Sun>);
 /// Skies of the steps that were computed so far: shared by all copies of the steps, ignored when steps are compared.
 #[derive(Debug, Clone)]
 struct Found {
+    /// Hash of everything on which the skies depend.
     number: u64,
     skies: Arc<Vec<OnceLock<Sky>>>,
-}
-
-impl Found {
-    fn nothing(steps: usize) -> Self {
-        static NUMBERS: AtomicU64 = AtomicU64::new(0);
-        let number = NUMBERS.fetch_add(1, Ordering::Relaxed);
-        Self { number, skies: Arc::new((0..steps).map(|_| OnceLock::new()).collect()) }
-    }
 }
 
 impl PartialEq for Found {
@@ -124,9 +117,13 @@ pub fn steps(file: &SceneFile, settings: &Settings, base: &Path) -> Result<Steps
         ));
     }
     let length = f64::from(weather.interval) / 60.0 / f64::from(parts);
+    let mut number = DefaultHasher::new();
+    kept.number.hash(&mut number);
+    format!("{reading:?} {parts} {:?} {:?} {:?}", file.sky, file.site, keys.ground).hash(&mut number);
+    let skies = Arc::new(list.iter().map(|_| OnceLock::new()).collect());
     Ok(Steps {
         whole: list.len() as f64 * length >= HOURS_OF_A_YEAR - 1e-6,
-        found: Found::nothing(list.len()),
+        found: Found { number: number.finish(), skies },
         list,
         length,
         station: weather.station.clone(),
@@ -194,7 +191,8 @@ impl Steps {
         Ok(self.found.skies[step].get_or_init(|| found).clone())
     }
 
-    /// Returns a number that identifies these steps and their copies, by which results for them are stored elsewhere.
+    /// Returns a number that identifies the skies of these steps, by which results for them are stored elsewhere: steps
+    /// of the same weather data, sky and site have the same one.
     pub fn number(&self) -> u64 {
         self.found.number
     }
@@ -261,6 +259,13 @@ mod tests {
         }
         // The row of 6 to 7 h is that of 8 to 9 h, with the sun of half past eight and half an hour.
         assert!(!plain.list[6].occupied && clock.list[6].occupied);
+    }
+
+    #[test]
+    fn the_same_skies_have_the_same_number() {
+        let number = |offset, days| steps_with(offset, days).number();
+        assert_eq!(number(0.0, "all"), number(0.0, "weekdays"));
+        assert_ne!(number(0.0, "all"), number(30.0, "all"));
     }
 
     #[test]
