@@ -49,7 +49,8 @@ pub fn cut_by_all<F: Fn(DVec2) -> f64>(
 /// square is 2e-6, and both formulas are exact but for rounding.
 const TINY: f64 = 1e-5;
 
-/// Returns the area of a plane polygon, > 0 when it turns counter-clockwise.
+/// Returns the area of a plane polygon, > 0 when it turns counter-clockwise. A polygon that is tiny beside its distance
+/// from the origin is summed about its first corner, so that products of large coordinates do not round it away.
 pub fn area(polygon: &[DVec2]) -> f64 {
     let Some(&first) = polygon.first() else { return 0.0 };
     let span = TINY * TINY * first.length_squared();

@@ -173,7 +173,9 @@ fn row(columns: &HashMap<&str, usize>, record: &csv::StringRecord) -> Result<Row
     // Less is written as nothing.
     let separate_beam = if light("apart_lm", beam_flux)? >= MIN_BEAM_FLUX {
         let direction = direction.try_normalize();
-        let direction = direction.ok_or_else(|| wrong("apart_lm without a direction".to_owned(), "apart_x, _y, _z"))?;
+        let direction = direction.ok_or_else(|| {
+            wrong("a beam (apart_lm) whose direction is 0".to_owned(), "its direction in apart_x, apart_y and apart_z")
+        })?;
         Some(SeparateBeam { flux: beam_flux, direction, normal: light("apart_lx", or_zero("apart_lx")?)? })
     } else {
         None

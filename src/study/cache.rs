@@ -11,12 +11,19 @@ pub type Key = Vec<u64>;
 pub struct Cache<T> {
     entries: Mutex<Vec<(Key, Arc<T>)>>,
     capacity: usize,
+    size: fn(&T) -> usize,
 }
 
 impl<T> Cache<T> {
     /// Creates an empty cache of at most `capacity` results.
     pub const fn new(capacity: usize) -> Self {
-        Self { entries: Mutex::new(Vec::new()), capacity }
+        Self::sized(capacity, |_| 1)
+    }
+
+    /// Creates an empty cache of results whose sizes together are at most `capacity`, and of the last result whatever
+    /// its size. `size`: returns the size of a result, which does not change.
+    pub const fn sized(capacity: usize, size: fn(&T) -> usize) -> Self {
+        Self { entries: Mutex::new(Vec::new()), capacity, size }
     }
 
     /// Whether the cache contains the result of a key.
@@ -43,10 +50,11 @@ impl<T> Cache<T> {
         if let Some(value) = known(&mut entries) {
             return Ok(value);
         }
-        if entries.len() >= self.capacity {
+        entries.push((key, Arc::clone(&value)));
+        let size = |(_, value): &(Key, Arc<T>)| (self.size)(value);
+        while entries.len() > 1 && entries.iter().map(size).sum::<usize>() > self.capacity {
             entries.remove(0);
         }
-        entries.push((key, Arc::clone(&value)));
         Ok(value)
     }
 
@@ -62,4 +70,27 @@ impl<T> Cache<T> {
 /// Returns the bits of numbers, for keys.
 pub fn bits(numbers: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u64> {
     numbers.into_iter().map(f64::to_bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_recently_used_results_go_when_all_are_too_large() {
+        let cache = Cache::sized(10, |value: &usize| *value);
+        for size in [4, 5, 1] {
+            cache.find(vec![size as u64], || size);
+        }
+        let held = || (0..20).filter(|size| cache.holds(&vec![*size])).collect::<Vec<_>>();
+        assert_eq!(held(), [1, 4, 5]);
+        cache.find(vec![4], || unreachable!("it is held"));
+        cache.find(vec![3], || 3);
+        assert_eq!(held(), [1, 3, 4]);
+        // One that is too large for the cache is held until the next.
+        cache.find(vec![11], || 11);
+        assert_eq!(held(), [11]);
+        cache.find(vec![2], || 2);
+        assert_eq!(held(), [2]);
+    }
 }

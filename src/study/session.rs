@@ -56,7 +56,7 @@ pub use results::{LidResult, RoomResult, SensorResult};
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
 use seen_cells::SeenCells;
 use sky_patches::SkyPatches;
-use sky_year::{SkyYear, SunlitYear};
+use sky_year::{ALL_NUMBERS, SkyYear, SunlitYear};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -82,8 +82,8 @@ pub struct Session {
     responses: Cache<Vec<Response>>,
     unit_beams: Cache<UnitBeams>,
     sky_patches: Cache<SkyPatches>,
+    /// Light of the hours of years, within a number of values.
     sky_years: Cache<SkyYear>,
-    seen_years: Cache<SkyYear>,
     sunlit_years: Cache<SunlitYear>,
     exact_skies: Cache<Vec<f64>>,
     trial_skies: Cache<Vec<Outside>>,
@@ -121,8 +121,8 @@ impl Session {
     }
 
     /// Creates a session for work that goes from product to product and does not return to earlier ones: fewer results
-    /// are stored that depend on a product, and as many that depend on the weather. The room is solved once for all
-    /// products, because light that panes and diffusers reflect is taken as uniform over each aperture. The error of
+    /// are stored that depend on a product, and as many that depend on the room or the weather. The room is solved once
+    /// for all products, because light that panes and diffusers reflect is taken as uniform over each aperture. The error of
     /// this is up to 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the stated
     /// errors include it.
     pub const fn passing() -> Self {
@@ -136,7 +136,7 @@ impl Session {
         Self { reflects_uniformly: false, ..self }
     }
 
-    /// Creates a session with 1 / `part` of the usual cache sizes. `reflects_uniformly`: whether diffusely reflected
+    /// Creates a session that stores 1 / `part` of the usual number of products' results. `reflects_uniformly`: whether diffusely reflected
     /// light is taken as uniform over an aperture.
     const fn keeping(part: usize, reflects_uniformly: bool) -> Self {
         Self {
@@ -148,8 +148,7 @@ impl Session {
             responses: Cache::new(6),
             unit_beams: Cache::new(6),
             sky_patches: Cache::new(6),
-            sky_years: Cache::new(12),
-            seen_years: Cache::new(3),
+            sky_years: Cache::sized(ALL_NUMBERS, SkyYear::size),
             sunlit_years: Cache::new(6),
             exact_skies: Cache::new(18),
             trial_skies: Cache::new(3),

@@ -33,6 +33,8 @@ impl TensorTree {
         (self.rank() == TreeRank::Four).then(|| self.luminance_anisotropic(illuminance))
     }
 
+    /// Computes the emergent luminance \[cd/m²\] of a tree of rank 4 from the illuminances \[lx\] from the cells of its
+    /// incident grid, both in the façade frame, row by row.
     fn luminance_anisotropic(&self, illuminance: &[f64]) -> Vec<f64> {
         let grid = self.incident_grid();
         let own = Pyramid::gather(grid.level(), self.turned(illuminance));

@@ -48,7 +48,7 @@ pub(super) fn check(dataset: &Dataset) -> Vec<Diagnosis> {
             list.push(
                 Finding::warning(
                     "template-word",
-                    format!("The {what} '{word}' is a template's word: tell the product's."),
+                    format!("The {what} '{word}' is the placeholder of a template, not that of the product."),
                 )
                 .into(),
             );

@@ -1,8 +1,9 @@
 //! View from a point on sky and ground past obstructions, for integrals of the luminance.
 //!
-//! Along a meridian of any frame (a half plane through its pole) every straight edge is met at most once, at a polar
-//! angle in closed form. Between these angles and the horizon a single surface, sky or ground is visible, so that one
-//! ray identifies it, and its luminance is smooth there. A skyline, and the steps of a measured sky, have such angles
+//! Directions are swept along the meridians of a frame (half planes through its pole, at whose edge the point lies). A
+//! meridian meets every straight edge of a box at most once, at a polar angle in closed form. Between these angles and
+//! the horizon a single surface, sky or ground is visible, so that one ray identifies it, and its luminance is smooth
+//! there. A skyline, and the steps of a measured sky, have such angles
 //! only along the meridians of the dome: regions of other frames are swept by the bearing then (`on_dome`).
 
 use super::outside::Outside;

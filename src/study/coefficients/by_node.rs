@@ -13,7 +13,7 @@ use crate::compute::room::nodes::Nodes;
 use crate::compute::sky::{Counts, Prepared, SparseSum};
 use crate::study::session::sky_year::{SkyYear, of_moments};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, Mat, MatMut, MatRef, Par};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub(super) struct ByNode {
     /// Table N. Columns: node by node, patch by patch. Rows: sensor by sensor, then their uncertainties.
     entering: Mat<f32>,
     /// Table N·W, with a column for each luminance, if it is formed first.
-    by_luminance: Option<Mat<f32>>,
+    by_luminance: Option<Vec<f32>>,
 }
 
 impl ByNode {
@@ -53,22 +53,22 @@ impl ByNode {
         own
     }
 
-    /// Returns the table N·W.
-    fn each_luminance(&self) -> Mat<f32> {
-        let mut table: Mat<f32> = Mat::zeros(self.entering.nrows(), self.seen.len());
-        let summed = |(by_node, table): (&Vec<Counts>, ColMut<'_, f32>)| {
-            let table = table.try_as_col_major_mut().expect("columns of a matrix lie in one piece").as_slice_mut();
-            for (block, sums) in table.chunks_mut(BLOCK).enumerate() {
-                let rows = block * BLOCK..block * BLOCK + sums.len();
+    /// Returns the table N·W, column by column.
+    fn each_luminance(&self) -> Vec<f32> {
+        let rows = self.entering.nrows();
+        let mut table = vec![0.0; rows * self.seen.len()];
+        let summed = |(by_node, column): (&Vec<Counts>, &mut [f32])| {
+            for (block, sums) in column.chunks_mut(BLOCK).enumerate() {
+                let own = block * BLOCK..block * BLOCK + sums.len();
                 wide(|| {
                     for (place, counts) in self.places(by_node) {
-                        let light = &self.entering.col_as_slice(place)[rows.clone()];
+                        let light = &self.entering.col_as_slice(place)[own.clone()];
                         sums.iter_mut().zip(light).for_each(|(sum, e)| *sum += counts * e);
                     }
                 });
             }
         };
-        self.seen.par_iter().zip(table.par_col_iter_mut()).for_each(summed);
+        self.seen.par_iter().zip(table.par_chunks_mut(rows.max(1))).for_each(summed);
         table
     }
 
@@ -117,6 +117,7 @@ impl ByNode {
         light: MatMut<'_, f32>,
     ) {
         if let Some(table) = &self.by_luminance {
+            let table = MatRef::from_column_major_slice(table, self.entering.nrows(), self.seen.len());
             return matmul(light, Accum::Replace, table, luminances, 1.0, Par::Seq);
         }
         let find = |missing: &[usize]| {

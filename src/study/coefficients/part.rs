@@ -117,12 +117,12 @@ impl Sums {
 }
 
 impl AperturePart {
-    /// Prepares an aperture. `btdf`: transmission of its system; `behind`: obstructions in front of it, and a cache of
+    /// Prepares an aperture. `btdf`: transmission of its system; `obstructed`: obstructions in front of it, and a cache of
     /// direct light by aperture.
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
-        behind: Option<(&Behind, &Cache<Mat<f32>>)>,
+        obstructed: Option<(&Behind, &Cache<Mat<f32>>)>,
     ) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, .. } = *opening;
         let model = scene.apertures[index].system.model.as_ref().filter(|_| scene.beams);
@@ -147,7 +147,7 @@ impl AperturePart {
         let model = model.cloned().zip(described).map(|(model, views)| (model, views, by_angle));
         let sun = SunWay::new(opening, btdf, model)?;
         let regular = btdf.regular.as_ref();
-        let (sky, gap) = match behind {
+        let (sky, gap) = match obstructed {
             Some((behind, direct)) => {
                 let through = described_through(session, scene, index);
                 let nodes = nodes(&scene.apertures[index].aperture);
@@ -220,8 +220,8 @@ impl AperturePart {
         }
     }
 
-    /// Stores in `session` the light of the hours of a year on the patches of the aperture. `year`: a number that no
-    /// other year has, and the number of its hours.
+    /// Stores in `session` the light of the hours of a year on the patches of the aperture. `year`: a number that no year
+    /// of other skies has, and the number of its hours.
     pub fn keep_year(&mut self, session: &Session, (scene, index): (&Scene, usize), year: (u64, usize)) {
         self.year = match &mut self.sky {
             Seen::Behind(prepared, past, at_nodes) => {
@@ -234,7 +234,7 @@ impl AperturePart {
                 let mut hasher = DefaultHasher::new();
                 straight.iter().for_each(|seen| seen.hash(&mut hasher));
                 let moments = straight.iter().map(StraightView::moments).sum();
-                *seen_year = session.seen_year(year, hasher.finish(), moments);
+                *seen_year = session.sky_year(year, hasher.finish(), moments);
                 session.sky_year(year, patches.fingerprint, patches.samples.cells().len())
             }
         };

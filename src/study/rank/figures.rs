@@ -168,6 +168,7 @@ fn dark(climate: &Climate) -> Year {
             dark: steps,
         },
         retracted_sun: None,
+        direct_sun: true,
         lm83: None,
         solar: None,
         dgp: (climate.settings.keys.dgp && eyes > 0).then(dgp),

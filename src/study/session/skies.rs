@@ -4,7 +4,7 @@
 use super::far;
 use super::seen::keeps;
 use super::sky_patches::SkyPatches;
-use super::sky_year::{SkyYear, SunlitYear};
+use super::sky_year::{MOST_NUMBERS, SkyYear, SunlitYear};
 use super::{Session, aperture_key, basis_key, reception_key};
 use crate::compute::angle::Bearing;
 use crate::compute::basis::RingBasis;
@@ -12,7 +12,7 @@ use crate::compute::direction::{Dir, Orientation, World};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::room::grid::CellWeights;
 use crate::compute::sky::{Counts, Outside, Prepared};
-use crate::study::cache::{Cache, Key, bits};
+use crate::study::cache::{Key, bits};
 use crate::study::outside::Before;
 use crate::study::scene::Scene;
 use glam::DVec3;
@@ -22,18 +22,6 @@ use std::sync::{Arc, OnceLock};
 
 /// Estimated memory per sensor for an emergent cell that it sees through points of an aperture. \[numbers\]
 const CELL_AT_POINTS: usize = 16;
-/// Maximum number of values of a year that are stored: 12,000 in each of 8,784 hours. Half of these are dark, so that
-/// they take 210 MB.
-const MOST_NUMBERS: usize = 12_000 * 8784;
-
-/// Returns the store for the hours of a year, for a list of directions with this fingerprint that gives `numbers`
-/// values per hour; `None` if these are more than can be stored. `year`: number that identifies the year, and number of
-/// its hours.
-fn year_of(cache: &Cache<SkyYear>, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
-    let fits = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
-    fits.then(|| cache.find(vec![year.0, year.1 as u64, fingerprint], || SkyYear::nothing(year.1)))
-}
-
 impl Session {
     /// Returns the patches of the outside in front of an aperture, computed or stored. `patches`: basis of the incident
     /// hemisphere; `spacing`: maximum distance between the directions in which a sky is evaluated \[rad\].
@@ -104,10 +92,13 @@ impl Session {
         self.cells_at_points.find(key, find)
     }
 
-    /// Returns the store for the illuminances of `patches` patches in the hours of a year; `None` if these are more
-    /// than can be stored.
-    pub(crate) fn sky_year(&self, year: (u64, usize), fingerprint: u64, patches: usize) -> Option<Arc<SkyYear>> {
-        year_of(&self.sky_years, year, fingerprint, patches)
+    /// Returns the store for the hours of a year, of `numbers` values each that depend on the sky and on something with
+    /// this fingerprint; `None` if these are more than can be stored. `year`: number that identifies the year, and number
+    /// of its hours.
+    pub(crate) fn sky_year(&self, year: (u64, usize), fingerprint: u64, numbers: usize) -> Option<Arc<SkyYear>> {
+        let find = || SkyYear::nothing(year.1, numbers);
+        let fits = (1..=MOST_NUMBERS).contains(&(numbers * year.1));
+        fits.then(|| self.sky_years.find(vec![year.0, year.1 as u64, fingerprint], find))
     }
 
     /// Returns the store for the light that enters at the nodes of an aperture through incident patches in the hours of
@@ -123,13 +114,7 @@ impl Session {
     ) -> Option<Arc<SkyYear>> {
         let mut hasher = DefaultHasher::new();
         (prepared, aperture_key(scene, index), basis_key(Some(patches))).hash(&mut hasher);
-        year_of(&self.sky_years, year, hasher.finish(), numbers)
-    }
-
-    /// Returns the store for the moments of what sensors see by regular transmission in the hours of a year, `moments`
-    /// in each; `None` if these are more than can be stored.
-    pub(crate) fn seen_year(&self, year: (u64, usize), fingerprint: u64, moments: usize) -> Option<Arc<SkyYear>> {
-        year_of(&self.seen_years, year, fingerprint, moments)
+        self.sky_year(year, hasher.finish(), numbers)
     }
 
     /// Returns the store for the sunlit parts of an aperture in the hours of a year. `prepared`: number of the prepared

@@ -5,21 +5,35 @@ use crate::compute::room::sunlit_part::SunlitPart;
 use faer::Mat;
 use std::sync::OnceLock;
 
+/// Maximum number of values of a year that are stored: 12,000 in each of 8,784 hours. Half of these are dark, so that
+/// they take 210 MB.
+pub(super) const MOST_NUMBERS: usize = 12_000 * 8784;
+/// Maximum number of values of all years together: for behind boxes, luminances and what enters at the nodes.
+pub(super) const ALL_NUMBERS: usize = MOST_NUMBERS + MOST_NUMBERS / 2;
+
 /// Sunlit part of an aperture in each hour of a year, computed at its first use.
 pub(crate) type SunlitYear = Vec<OnceLock<SunlitPart>>;
 
 /// Values of a sky in each hour of a year, computed at their first use; in single precision, 6 · 10⁻⁸ of each value.
-pub(crate) struct SkyYear(Vec<OnceLock<Box<[f32]>>>);
+pub(crate) struct SkyYear {
+    hours: Vec<OnceLock<Box<[f32]>>>,
+    numbers: usize,
+}
 
 impl SkyYear {
-    /// Creates an empty store for `hours` hours.
-    pub fn nothing(hours: usize) -> Self {
-        Self((0..hours).map(|_| OnceLock::new()).collect())
+    /// Creates an empty store for `hours` hours with `numbers` values each.
+    pub fn nothing(hours: usize, numbers: usize) -> Self {
+        Self { hours: (0..hours).map(|_| OnceLock::new()).collect(), numbers }
+    }
+
+    /// Returns the number of values that the store holds when all hours are computed.
+    pub fn size(&self) -> usize {
+        self.hours.len() * self.numbers
     }
 
     /// Whether the values of an hour are stored.
     pub fn holds(&self, hour: usize) -> bool {
-        self.0[hour].get().is_some()
+        self.hours[hour].get().is_some()
     }
 
     /// Returns the values of an hour, computed by `find` or stored.
@@ -28,7 +42,7 @@ impl SkyYear {
     }
 
     fn single(&self, hour: usize, find: impl FnOnce() -> Vec<f32>) -> &[f32] {
-        self.0[hour].get_or_init(|| find().into_boxed_slice())
+        self.hours[hour].get_or_init(|| find().into_boxed_slice())
     }
 }
 

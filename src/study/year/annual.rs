@@ -10,7 +10,7 @@ use crate::study::scene_file::SceneFile;
 pub struct Annual {
     /// Scene for which the year was computed, without the keys on which no year depends, see [`question`].
     pub of: SceneFile,
-    /// Results of all steps of the year.
+    /// Results of all steps of the year, without the light by direct sun alone.
     pub year: Year,
     /// Figures of the year as computed, with all light lower by its error, and with all light higher.
     pub figures: [Figures; 3],
@@ -18,8 +18,11 @@ pub struct Annual {
 
 impl Annual {
     /// Creates the figures of a year that was computed for the scene `file`.
-    pub fn new(file: &SceneFile, year: Year) -> Self {
-        Self { of: question(file), figures: figures(&year), year }
+    pub fn new(file: &SceneFile, mut year: Year) -> Self {
+        let figures = figures(&year);
+        // Only the figures need it, and it is half of all that a year holds.
+        (year.light.sun, year.retracted_sun) = (None, None);
+        Self { of: question(file), figures, year }
     }
 
     /// Whether the year was computed for this scene, whatever its date and time.

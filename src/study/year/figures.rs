@@ -55,7 +55,10 @@ pub fn figures(year: &Year) -> [Figures; 3] {
     let shifted = |sign: f64| -> Vec<f64> {
         light.values.iter().zip(&light.errors).map(|(value, error)| (value + sign * error).max(0.0)).collect()
     };
-    [of(year, &light.values, 0.0), of(year, &shifted(-1.0), -1.0), of(year, &shifted(1.0), 1.0)]
+    // One after the other: each table is as large as the light itself.
+    let own = of(year, &light.values, 0.0);
+    let [less, more] = [-1.0, 1.0].map(|sign| of(year, &shifted(sign), sign));
+    [own, less, more]
 }
 
 /// Returns the transmitted solar energy, with `sign` times the errors of the hourly powers added.
@@ -119,7 +122,7 @@ fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
     let in_use = year.light.sun.as_deref();
     let retracted = if year.moving.is_empty() { in_use } else { year.retracted_sun.as_deref() };
     in_use.or(retracted)?;
-    let dark = vec![0.0; places * steps.len()];
+    let dark = if in_use.and(retracted).is_some() { Vec::new() } else { vec![0.0; places * steps.len()] };
     let desks = |values| Light::of_columns(places, 0..sensors, values);
     let [in_use, retracted] = [in_use, retracted].map(|sun| desks(sun.unwrap_or(&dark)));
     Some(Exposure::of(steps, in_use?, retracted?, year.steps.length))

@@ -109,18 +109,20 @@ pub(super) fn light(
     let mut done = 0;
     for (set, rows) in groups {
         let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
-        let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
-        let found = engine.steps(question, &steps, &Counted { inner: progress, before: done, all: lit })?;
-        done += rows.len();
-        for (row, found) in rows.into_iter().zip(found) {
-            let at = row * places;
-            for (place, e) in found.light.into_iter().enumerate() {
-                light.values[at + place] = e.value;
-                light.errors[at + place] = e.error;
-            }
-            if let Some(sun) = found.sun {
-                let all = light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()]);
-                all[at..at + places].copy_from_slice(&sun);
+        for rows in rows.chunks(PIECES * TOGETHER) {
+            let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
+            let found = engine.steps(question, &steps, &Counted { inner: progress, before: done, all: lit })?;
+            done += rows.len();
+            for (row, found) in rows.iter().zip(found) {
+                let at = row * places;
+                for (place, e) in found.light.into_iter().enumerate() {
+                    light.values[at + place] = e.value;
+                    light.errors[at + place] = e.error;
+                }
+                if let Some(sun) = found.sun {
+                    let all = light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()]);
+                    all[at..at + places].copy_from_slice(&sun);
+                }
             }
         }
     }
@@ -143,16 +145,21 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     if !all.passes() {
         return Ok(None);
     }
-    let row = |(k, step): (usize, &Step)| {
+    let put = |(row, (k, step)): (&mut [f64], (usize, &Step))| {
         if progress.cancelled() {
             return Err(StudyError::from(Cancelled));
         }
         // Only occupied steps are counted.
         let sun = if step.occupied && step.hour.is_lit() { question.steps.even_outside(k)?.1 } else { None };
-        Ok(sun.map_or_else(|| vec![0.0; all.places()], |sun| all.at(&sun)))
+        if let Some(sun) = sun {
+            row.copy_from_slice(&all.at(&sun));
+        }
+        Ok(())
     };
-    let rows: Vec<Vec<f64>> = question.steps.list.par_iter().enumerate().map(row).collect::<Result<_, _>>()?;
-    Ok(Some(rows.concat()))
+    let list = &question.steps.list;
+    let mut table = vec![0.0; list.len() * all.places()];
+    table.par_chunks_mut(all.places().max(1)).zip(list.par_iter().enumerate()).try_for_each(put)?;
+    Ok(Some(table))
 }
 
 /// Returns the scene with the moving apertures in one combination of states, with the observers appended to its

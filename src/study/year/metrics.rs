@@ -301,7 +301,7 @@ fn whole(year: &Year) -> bool {
 
 /// Whether a whole year was computed in which nothing transmits direct sun unscattered.
 fn without_direct_sun(year: &Year) -> bool {
-    year.steps.whole && year.light.sun.is_none() && year.retracted_sun.is_none()
+    year.steps.whole && !year.direct_sun
 }
 
 fn one_if(yes: bool) -> f64 {

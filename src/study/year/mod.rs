@@ -107,6 +107,9 @@ pub struct Year {
     /// control, over all steps of a whole year; `None` if nothing moves, nothing transmits direct sun, or it is not
     /// requested. \[lx\]
     pub retracted_sun: Option<Vec<f64>>,
+    /// Whether a system transmits direct sun in the states of the year or in the open state of its control, as far as
+    /// requested.
+    pub direct_sun: bool,
     /// Illuminances in the chosen steps with blinds operated by the rule of IES LM-83-12; `None` if not requested.
     pub lm83: Option<Lm83>,
     /// Solar power and energy transmitted through the apertures; `None` if not requested.
@@ -283,6 +286,7 @@ fn computed(
         movements,
         indoor,
         chosen,
+        direct_sun: light.sun.is_some() || retracted_sun.is_some(),
         light,
         retracted_sun,
         lm83,
