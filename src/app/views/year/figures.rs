@@ -42,11 +42,15 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
                     if wide {
                         let between = Label::new(text(between, palette.weak)).extend();
                         ui.add(between).on_hover_text(say::BETWEEN_TIP);
+                    }
+                    let compliance = Label::new(text(row.compliance.clone(), palette.weak));
+                    if wide && !row.compliance.is_empty() {
+                        ui.add(compliance.extend());
                     } else if !row.compliance.is_empty() {
                         ui.end_row();
-                    }
-                    if !row.compliance.is_empty() {
-                        ui.add(Label::new(text(row.compliance.clone(), palette.weak)).extend());
+                        // Across all columns: in a cell it would widen the column of the names.
+                        let line = Rect::from_min_size(ui.cursor().min, vec2(rect.width(), PITCH - SPACING.y));
+                        ui.new_child(UiBuilder::new().max_rect(line)).add(compliance.truncate());
                     }
                     ui.end_row();
                 }
