@@ -11,6 +11,8 @@ use std::fmt::Write as _;
 /// under the figure.
 const WIDE: f32 = 600.0;
 
+/// Width that a narrow table leaves for values. \[points\]
+const VALUES: f32 = 110.0;
 /// Height of a row including the space under it. \[points\]
 const PITCH: f32 = 26.0;
 /// Space between columns (x) and between rows (y). \[points\]
@@ -23,6 +25,11 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
     let wide = rect.width() >= WIDE;
     // Whole rows: none is cut before it is scrolled.
     let rect = rect.with_max_y(rect.top() + ((rect.height() / PITCH).floor() * PITCH).max(PITCH));
+    // In a cell a line across all columns would widen that of the names.
+    let across = |ui: &mut Ui, line: RichText| {
+        let place = Rect::from_min_size(ui.cursor().min, vec2(rect.width(), PITCH - SPACING.y));
+        ui.new_child(UiBuilder::new().max_rect(place)).add(Label::new(line).truncate());
+    };
     ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt("figures"), |ui| {
         ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
             let grid = Grid::new("figures").num_columns(2).striped(true).spacing(SPACING);
@@ -31,26 +38,32 @@ pub(super) fn show(ui: &mut Ui, rect: Rect, rows: &[Row]) {
                 for row in rows {
                     if section != Some(row.section) {
                         section = Some(row.section);
-                        ui.label(RichText::new(row.section.words().get()).size(13.0).strong());
+                        across(ui, RichText::new(row.section.words().get()).size(13.0).strong());
                         ui.end_row();
                     }
                     let between = row.between_words();
                     let spread = if between.is_empty() { String::new() } else { say::between_is(&between) };
-                    ui.add(Label::new(text(row.name.clone(), palette.ink)).extend()).on_hover_text(row.tip);
+                    let name = Label::new(text(row.name.clone(), palette.ink));
+                    let name = if wide {
+                        ui.add(name.extend())
+                    } else {
+                        // A name that is cut can be read in its tooltip, a value could not.
+                        let size = vec2(rect.width() - VALUES, PITCH - SPACING.y);
+                        ui.allocate_ui(size, |ui| ui.add(name.truncate())).inner
+                    };
+                    name.on_hover_text(row.tip);
                     let value = ui.add(Label::new(text(row.value_words(), palette.ink).strong()).extend());
                     value.on_hover_text(format!("{}\n{spread}", say::ERROR_TIP).trim_end());
                     if wide {
                         let between = Label::new(text(between, palette.weak)).extend();
                         ui.add(between).on_hover_text(say::BETWEEN_TIP);
                     }
-                    let compliance = Label::new(text(row.compliance.clone(), palette.weak));
+                    let compliance = text(row.compliance.clone(), palette.weak);
                     if wide && !row.compliance.is_empty() {
-                        ui.add(compliance.extend());
+                        ui.add(Label::new(compliance).extend());
                     } else if !row.compliance.is_empty() {
                         ui.end_row();
-                        // Across all columns: in a cell it would widen the column of the names.
-                        let line = Rect::from_min_size(ui.cursor().min, vec2(rect.width(), PITCH - SPACING.y));
-                        ui.new_child(UiBuilder::new().max_rect(line)).add(compliance.truncate());
+                        across(ui, compliance);
                     }
                     ui.end_row();
                 }
