@@ -3,8 +3,8 @@
 //! Directions are swept along the meridians of a frame (half planes through its pole, at whose edge the point lies). A
 //! meridian meets every straight edge of a box at most once, at a polar angle in closed form. Between these angles and
 //! the horizon a single surface, sky or ground is visible, so that one ray identifies it, and its luminance is smooth
-//! there. A skyline, and the steps of a measured sky, have such angles
-//! only along the meridians of the dome: regions of other frames are swept by the bearing then (`on_dome`).
+//! there. A skyline, and the steps of a measured sky, have such angles only along the meridians of the dome: regions of
+//! other frames are swept by the bearing then (`on_dome`).
 
 use super::outside::Outside;
 use super::patches::ROW_HEIGHT;

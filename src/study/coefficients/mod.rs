@@ -232,9 +232,9 @@ impl Coefficients {
     }
 
     /// Stores in `session`, for all systems, the light of each hour of a year on the patches of this scene. `year`: a
-    /// number that no year of other skies has, and the number of its hours; `suns`: approximate number of sun positions. If they
-    /// are many, scattered sunlight may be interpolated between directions, with the error of that. The hours are then
-    /// computed by [`Self::hours_estimate`].
+    /// number that no year of other skies has, and the number of its hours; `suns`: approximate number of sun positions.
+    /// If they are many, scattered sunlight may be interpolated between directions, with the error of that. The hours
+    /// are then computed by [`Self::hours_estimate`].
     pub fn keep_year(&mut self, session: &Session, year: (u64, usize), suns: usize) {
         self.suns = suns;
         let parts = self.parts.iter_mut().enumerate();

@@ -117,8 +117,8 @@ impl Sums {
 }
 
 impl AperturePart {
-    /// Prepares an aperture. `btdf`: transmission of its system; `obstructed`: obstructions in front of it, and a cache of
-    /// direct light by aperture.
+    /// Prepares an aperture. `btdf`: transmission of its system; `obstructed`: obstructions in front of it, and a cache
+    /// of direct light by aperture.
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
