@@ -122,9 +122,9 @@ impl Session {
 
     /// Creates a session for work that goes from product to product and does not return to earlier ones: fewer results
     /// are stored that depend on a product, and as many that depend on the room or the weather. The room is solved once
-    /// for all products, because light that panes and diffusers reflect is taken as uniform over each aperture. The error of
-    /// this is up to 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the stated
-    /// errors include it.
+    /// for all products, because light that panes and diffusers reflect is taken as uniform over each aperture. The
+    /// error of this is up to 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the
+    /// stated errors include it.
     pub const fn passing() -> Self {
         Self::keeping(3, true)
     }
@@ -136,8 +136,8 @@ impl Session {
         Self { reflects_uniformly: false, ..self }
     }
 
-    /// Creates a session that stores 1 / `part` of the usual number of products' results. `reflects_uniformly`: whether diffusely reflected
-    /// light is taken as uniform over an aperture.
+    /// Creates a session that stores 1 / `part` of the usual number of products' results. `reflects_uniformly`: whether
+    /// diffusely reflected light is taken as uniform over an aperture.
     const fn keeping(part: usize, reflects_uniformly: bool) -> Self {
         Self {
             rooms: Cache::new(9),
