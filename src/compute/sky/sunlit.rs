@@ -6,7 +6,7 @@ use super::open_ground::OpenGround;
 use super::scenery::{Scenery, Surface};
 use crate::compute::polygon::area;
 use crate::compute::surroundings::face_light::{Branch, FaceLight, Limits};
-use crate::compute::surroundings::shading::without;
+use crate::compute::surroundings::shading::{area_without, without};
 use glam::{DVec2, DVec3};
 
 /// Distance of a viewpoint, relative to its height above the ground, from which cells of the ground grow with the
@@ -161,14 +161,11 @@ fn light_up(tree: &[Branch], part: usize, shadows: &[&Shadow<'_>], sun: f64, all
 
 /// Returns the share of a rectangle that lies outside all shadows, 0 … 1.
 fn lit_share(rectangle: &Limits, shadows: &[&Shadow<'_>]) -> f64 {
-    if shadows.is_empty() {
-        return 1.0;
-    }
+    let Some((last, others)) = shadows.split_last() else { return 1.0 };
     let whole = corners(rectangle).to_vec();
     let size = area(&whole);
     let clear = |pieces, shadow: &&Shadow<'_>| without(pieces, shadow.outline, NOTHING * size);
-    let lit: f64 = shadows.iter().fold(vec![whole], clear).iter().map(|piece| area(piece).abs()).sum();
-    lit / size
+    area_without(others.iter().fold(vec![whole], clear), last.outline) / size
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 //! Shadows are those for the centre of the sun's disc.
 
 use super::solid::{Face, Solid};
-use crate::compute::polygon::{area, cut};
+use crate::compute::polygon::{area, cut, cut_by_all};
 use glam::{DVec2, DVec3};
 
 /// Share of a rectangle's area below which pieces are negligible.
@@ -70,24 +70,41 @@ fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
 /// those with an area below `least` are dropped.
 pub fn without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2], least: f64) -> Vec<Vec<DVec2>> {
     let mut left = Vec::with_capacity(pieces.len());
+    let is_something = |piece: &Vec<DVec2>| piece.len() >= 3 && area(piece).abs() > least;
     for mut piece in pieces {
         for (k, &from) in hole.iter().enumerate() {
             let along = hole[(k + 1) % hole.len()] - from;
             let inside = |p: DVec2| along.perp_dot(p - from);
-            let mut outer = Vec::new();
-            cut(&piece, |p| -inside(p), &mut outer);
-            if outer.len() >= 3 && area(&outer).abs() > least {
-                left.push(outer);
+            if piece.iter().all(|p| inside(*p) >= 0.0) {
+                continue;
             }
-            let mut inner = Vec::new();
+            if piece.iter().all(|p| inside(*p) <= 0.0) {
+                left.push(piece);
+                break;
+            }
+            let [mut outer, mut inner] = [const { Vec::new() }; 2];
+            cut(&piece, |p| -inside(p), &mut outer);
+            left.extend(Some(outer).filter(is_something));
             cut(&piece, inside, &mut inner);
             piece = inner;
-            if piece.len() < 3 || area(&piece).abs() <= least {
+            if !is_something(&piece) {
                 break;
             }
         }
     }
     left
+}
+
+/// Returns the area of convex pieces outside the convex, counter-clockwise polygon `hole`.
+pub fn area_without(pieces: Vec<Vec<DVec2>>, hole: &[DVec2]) -> f64 {
+    let mut kept = Vec::new();
+    let outside = |mut piece: Vec<DVec2>| {
+        let whole = area(&piece).abs();
+        let borders = hole.iter().zip(hole.iter().cycle().skip(1));
+        cut_by_all(&mut piece, borders.map(|(from, to)| |p: DVec2| (*to - *from).perp_dot(p - *from)), &mut kept);
+        (whole - area(&piece).abs()).max(0.0)
+    };
+    pieces.into_iter().map(outside).sum()
 }
 
 /// Returns the sunlit part of a face behind boxes as convex pieces, in the coordinates of the face \[m\]; empty if the
