@@ -50,7 +50,7 @@ static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
 });
 static WEATHER: LazyLock<Climate> =
     LazyLock::new(|| climate(&file("Lambert"), Path::new(".")).expect("built-in weather can be read"));
-static SESSION: Session = Session::new();
+static SESSION: LazyLock<Session> = LazyLock::new(Session::new);
 
 /// Prints for every system the deviations of every 487th hour from the default method at the same moment.
 fn errors() {

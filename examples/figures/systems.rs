@@ -16,7 +16,7 @@ use cfs::study::{LidResult, RoomResult, Scene, SceneFile, Session, StudyError, S
 use glam::DVec3;
 use std::f64::consts::PI;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// Light that leaves around a through direction `centre`, with standard deviation `sigma` \[rad\] and a share `flux`.
 #[derive(Debug, Clone, Copy)]
@@ -269,7 +269,7 @@ impl Place {
     }
 }
 
-static SESSION: Session = Session::new();
+static SESSION: LazyLock<Session> = LazyLock::new(Session::new);
 
 /// Returns the total illuminances. \[lx\]
 pub fn totals(result: &RoomResult) -> Vec<f64> {

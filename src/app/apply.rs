@@ -11,6 +11,7 @@ use super::state::{PathUse, Sheet};
 use super::title;
 use super::window::{App, end_step};
 use crate::catalogue::{FirstRule, Product};
+use crate::study::Store;
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode, SceneFile};
@@ -87,6 +88,8 @@ impl App {
             }
             Command::Language(choice) => state.settings.language = choice,
             Command::TextSize(change) => self.change_text_size(change),
+            Command::StoreLimit(megabytes) => state.settings.store_limit = megabytes,
+            Command::ClearStore => self.services.engine.store().into_iter().for_each(Store::clear),
             Command::Tour(act) => self.tour(act),
             Command::ResetScene => {
                 // The first scene names no product: the one that is chosen stays, with its rule.

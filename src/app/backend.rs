@@ -26,7 +26,7 @@ use crate::study::rank::{Answer, Group, Item, Stage, run as rank};
 use crate::study::subject::{Subject, Wanted};
 use crate::study::subscriptions::{Report, sync};
 use crate::study::year::{Annual, year};
-use crate::study::{Library, Scene, Session, StudyError};
+use crate::study::{Library, Scene, Session, Store, StudyError};
 use crate::texts::shell;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -278,9 +278,9 @@ impl Shelf for CatalogueShelf {
 
 /// Engine of the window that computes by the study, with the caches of its sessions.
 pub struct StudyEngine {
+    store: Arc<Store>,
     session: Session,
-    /// Session for rankings, which run through many products, so that the cached results of the scene stay in
-    /// `session`.
+    /// Session for rankings, which solve a room once for all products.
     ranking: Session,
     files: Arc<Library>,
 }
@@ -294,7 +294,9 @@ impl Default for StudyEngine {
 impl StudyEngine {
     /// Creates an engine that reads dataset files, and catalogue products used as layers, from the library `files`.
     pub fn new(files: Arc<Library>) -> Self {
-        Self { session: Session::new(), ranking: Session::passing(), files }
+        let store = Arc::new(Store::new(usize::MAX));
+        let session = || Session::storing(&store);
+        Self { session: session(), ranking: session().passing(), store, files }
     }
 
     fn scene(&self, question: &Question, progress: &dyn Progress) -> Result<Scene, AppError> {
@@ -371,6 +373,10 @@ impl Engine for StudyEngine {
         let library = WindowLibrary { files: &self.files, shelf, progress };
         rank(groups, items, &library, &self.ranking, &[Stage::Coarse, Stage::Full], report, progress)?;
         Ok(())
+    }
+
+    fn store(&self) -> Option<&Store> {
+        Some(&self.store)
     }
 
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {

@@ -96,6 +96,10 @@ pub enum Command {
     Theme(ThemeChoice),
     /// Set a larger or smaller text size.
     TextSize(TextSize),
+    /// Set the maximum memory of stored results. \[MB\]
+    StoreLimit(usize),
+    /// Remove all stored results; they are computed again when they are needed.
+    ClearStore,
     /// Start or leave the tour.
     Tour(TourAct),
     /// Set the language.

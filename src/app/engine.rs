@@ -15,7 +15,7 @@ use crate::study::rank::{Answer, Group, Item};
 use crate::study::scene_file::SceneFile;
 use crate::study::subject::{Asked, Subject, Wanted};
 use crate::study::year::Annual;
-use crate::study::{Library, OutsideSeen, Session, SurfaceLight};
+use crate::study::{Library, OutsideSeen, Session, Store, SurfaceLight};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -114,6 +114,10 @@ pub trait Engine: Send + Sync {
         progress: &dyn Progress,
     ) -> Result<Subject, AppError> {
         subject(question, incident, wanted, (&Session::new(), &Library::default()), progress)
+    }
+    /// Returns the store of results; `None` if the engine has none.
+    fn store(&self) -> Option<&Store> {
+        None
     }
     /// Returns the interpolator between the incident directions of the data.
     fn interpolator(&self, data: &Arc<Indicatrices>) -> Arc<Interpolator> {

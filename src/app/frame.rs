@@ -6,6 +6,7 @@ use super::command::Command;
 use super::dialogs::NativeDialogs;
 use super::offer::pressed;
 use super::restoring::sessions_folder;
+use super::settings::MEGABYTE;
 use super::text_size::SMALLEST_WINDOW;
 use super::window::{App, Services};
 use super::window_place::{bring_on_screen, repair_saved};
@@ -32,6 +33,8 @@ impl App {
             self.open_catalogue();
         }
         self.follow_text_size(ctx);
+        let limit = self.state.settings.store_limit * MEGABYTE;
+        self.services.engine.store().into_iter().for_each(|store| store.set_limit(limit));
         self.poll();
         // Another window or the command line may have changed the catalogue meanwhile.
         if ctx.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {

@@ -285,6 +285,8 @@ fn table() -> Vec<Offer> {
     }));
     list.extend([
         offer(sheet(state::Sheet::Keys), words::KEYS, words::KEYS_TIP).keys(PLAIN, Key::Questionmark).menu(HELP, 1),
+        offer(sheet(state::Sheet::About), words::ABOUT, words::ABOUT_TIP).menu(HELP, 5),
+        offer(ClearStore, words::CLEAR_STORE, words::CLEAR_STORE_TIP),
         offer(Quit, words::QUIT, words::QUIT_TIP).keys(CTRL, Key::Q).menu(FILE, 20),
     ]);
     list

@@ -8,6 +8,13 @@ use crate::study::rank::Look as Choosing;
 use crate::study::year::Look;
 use std::path::PathBuf;
 
+/// A megabyte. \[bytes\]
+pub const MEGABYTE: usize = 1_000_000;
+
+/// Maximum memory of stored results at a first start: those of a room with a thousand sensors, or of a year. \[MB\]
+/// Chosen: cost only, no effect on results.
+const STORE_LIMIT: usize = 256;
+
 /// Settings of the window that are stored between starts of the program.
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
@@ -37,6 +44,8 @@ pub struct Settings {
     pub choose: Choosing,
     /// Text size as a factor on that of the desktop.
     pub text_size: f32,
+    /// Maximum memory of stored results. \[MB\]
+    pub store_limit: usize,
     /// Number of steps of the tour that the user has finished.
     pub tour: usize,
     /// Whether the catalogue shows products as a gallery of pictures instead of a list.
@@ -60,6 +69,7 @@ impl Default for Settings {
             year: Look::default(),
             choose: Choosing::default(),
             text_size: 1.0,
+            store_limit: STORE_LIMIT,
             tour: 0,
             gallery: false,
             recent: Vec::new(),

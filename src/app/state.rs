@@ -189,6 +189,8 @@ pub enum Sheet {
     Findings,
     /// List of all keyboard shortcuts.
     Keys,
+    /// Version of the program, and memory of the stored results.
+    About,
     /// Plot of the error of results against computing time.
     Accuracy,
     /// Virtual goniophotometer: scattering data computed from a description of geometry and materials.

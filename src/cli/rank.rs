@@ -98,8 +98,8 @@ pub fn run(args: &RankArgs, library: &Library) -> anyhow::Result<()> {
         [one] => anyhow!("{}: {error}", one.display()),
         _ => anyhow!("{error}"),
     };
-    let outcomes =
-        compute(&groups, &items, library, &Session::passing(), &[Stage::Full], &|_| (), &progress).map_err(name)?;
+    let outcomes = compute(&groups, &items, library, &Session::new().passing(), &[Stage::Full], &|_| (), &progress)
+        .map_err(name)?;
     drop(progress);
     let mut lists = lists_of(&groups, &items, outcomes, &keys);
     lists.iter_mut().for_each(List::sort);

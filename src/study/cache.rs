@@ -1,60 +1,131 @@
-//! Cache of the most recently used results, found by exact keys; for results that do not depend on a changed sky, time
-//! or product.
+//! Store of results that do not depend on a changed sky, time or product: found by exact keys, within one limit of
+//! memory, the least recently used out first.
 
+use hashlink::LruCache;
+use std::any::Any;
 use std::convert::Infallible;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::marker::PhantomData;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// Key of a result: the bits of all numbers on which it depends.
 pub type Key = Vec<u64>;
 
-/// Cache of the most recently used results, shared between threads.
-pub struct Cache<T> {
-    entries: Mutex<Vec<(Key, Arc<T>)>>,
-    capacity: usize,
-    size: fn(&T) -> usize,
+/// Store of results of several kinds, shared between threads. Removing a result changes no later result: it is computed
+/// again.
+pub struct Store(Mutex<Stored>);
+
+/// Results of a store with their memory.
+struct Stored {
+    /// Maximum memory of all results. \[bytes\]
+    limit: usize,
+    /// Memory of all results. \[bytes\]
+    bytes: usize,
+    /// Number of the next cache.
+    next: usize,
+    /// Results by the number of their cache and by key, the least recently used first.
+    results: LruCache<(usize, Key), Entry>,
 }
 
-impl<T> Cache<T> {
-    /// Creates an empty cache of at most `capacity` results.
-    pub const fn new(capacity: usize) -> Self {
-        Self::sized(capacity, |_| 1)
+/// Result in a store with its memory. \[bytes\]
+struct Entry {
+    value: Arc<dyn Any + Send + Sync>,
+    bytes: usize,
+}
+
+impl Store {
+    /// Creates an empty store whose results take at most `limit` bytes; the last result is stored whatever its size.
+    pub fn new(limit: usize) -> Self {
+        Self(Mutex::new(Stored { limit, bytes: 0, next: 0, results: LruCache::new_unbounded() }))
     }
 
-    /// Creates an empty cache of results whose sizes together are at most `capacity`, and of the last result whatever
-    /// its size. `size`: returns the size of a result, which does not change.
-    pub const fn sized(capacity: usize, size: fn(&T) -> usize) -> Self {
-        Self { entries: Mutex::new(Vec::new()), capacity, size }
+    // What is stored is whole even if another thread has failed while it held the lock.
+    fn lock(&self) -> MutexGuard<'_, Stored> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Whether the cache contains the result of a key.
+    /// Returns the memory of all results. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.lock().bytes
+    }
+
+    /// Sets the maximum memory of all results \[bytes\], and removes those beyond it.
+    pub fn set_limit(&self, limit: usize) {
+        let mut stored = self.lock();
+        stored.limit = limit;
+        let removed = stored.within_limit();
+        // Freed without holding the lock.
+        drop(stored);
+        drop(removed);
+    }
+
+    /// Removes all results.
+    pub fn clear(&self) {
+        let mut stored = self.lock();
+        stored.bytes = 0;
+        let removed = std::mem::replace(&mut stored.results, LruCache::new_unbounded());
+        drop(stored);
+        drop(removed);
+    }
+}
+
+impl Stored {
+    /// Removes the least recently used results until the others are within the limit, and returns them.
+    fn within_limit(&mut self) -> Vec<Entry> {
+        let mut removed = Vec::new();
+        while self.bytes > self.limit && self.results.len() > 1 {
+            let Some((_, entry)) = self.results.remove_lru() else { break };
+            self.bytes -= entry.bytes;
+            removed.push(entry);
+        }
+        removed
+    }
+}
+
+/// Results of one kind in a store.
+pub struct Cache<T> {
+    store: Arc<Store>,
+    number: usize,
+    size: fn(&T) -> usize,
+    kind: PhantomData<fn() -> T>,
+}
+
+impl<T: Send + Sync + 'static> Cache<T> {
+    /// Creates the results of a new kind in `store`. `size`: returns the memory of a result as large as it may become.
+    /// \[bytes\]
+    pub fn new(store: &Arc<Store>, size: fn(&T) -> usize) -> Self {
+        let mut stored = store.lock();
+        stored.next += 1;
+        Self { store: Arc::clone(store), number: stored.next, size, kind: PhantomData }
+    }
+
+    /// Whether the result of a key is stored.
     pub fn holds(&self, key: &Key) -> bool {
-        self.entries.lock().unwrap_or_else(PoisonError::into_inner).iter().any(|(k, _)| k == key)
+        self.store.lock().results.peek(&(self.number, key.clone())).is_some()
     }
 
     /// Returns the result of a key; it is computed if it is not stored. Two threads may compute the same result at the
     /// same time; both then get that of the first.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
-        let lock = || self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = |entries: &mut Vec<(Key, Arc<T>)>| {
-            let at = entries.iter().position(|(k, _)| *k == key)?;
-            let entry = entries.remove(at);
-            let value = Arc::clone(&entry.1);
-            entries.push(entry);
-            Some(value)
+        let place = (self.number, key);
+        let known = |stored: &mut Stored| {
+            let value = Arc::clone(&stored.results.get(&place)?.value);
+            Some(value.downcast().expect("a cache has results of one type"))
         };
-        if let Some(value) = known(&mut lock()) {
+        if let Some(value) = known(&mut self.store.lock()) {
             return Ok(value);
         }
         let value = Arc::new(compute()?);
-        let mut entries = lock();
-        if let Some(value) = known(&mut entries) {
+        let mut stored = self.store.lock();
+        if let Some(value) = known(&mut stored) {
             return Ok(value);
         }
-        entries.push((key, Arc::clone(&value)));
-        let size = |(_, value): &(Key, Arc<T>)| (self.size)(value);
-        while entries.len() > 1 && entries.iter().map(size).sum::<usize>() > self.capacity {
-            entries.remove(0);
-        }
+        let bytes = (self.size)(&value) + size_of::<T>() + size_of_val(&place.1[..]);
+        let entry = Entry { value: Arc::clone(&value) as Arc<dyn Any + Send + Sync>, bytes };
+        stored.results.insert(place, entry);
+        stored.bytes += bytes;
+        let removed = stored.within_limit();
+        drop(stored);
+        drop(removed);
         Ok(value)
     }
 
@@ -77,20 +148,39 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_least_recently_used_results_go_when_all_are_too_large() {
-        let cache = Cache::sized(10, |value: &usize| *value);
-        for size in [4, 5, 1] {
-            cache.find(vec![size as u64], || size);
+    fn the_least_recently_used_results_of_all_kinds_go_when_all_are_too_large() {
+        let fixed = size_of::<usize>() + size_of::<u64>();
+        let store = Arc::new(Store::new(10_000));
+        let (even, odd) = (Cache::new(&store, |value: &usize| *value), Cache::new(&store, |value: &usize| *value));
+        let of = |size: usize| if size.is_multiple_of(2) { &even } else { &odd };
+        let find = |size: usize| *of(size).find(vec![size as u64], || size);
+        let held =
+            |sizes: &[usize]| sizes.iter().copied().filter(|size| of(*size).holds(&vec![*size as u64])).collect();
+        for size in [4000, 5001, 600] {
+            find(size);
         }
-        let held = || (0..20).filter(|size| cache.holds(&vec![*size])).collect::<Vec<_>>();
-        assert_eq!(held(), [1, 4, 5]);
-        cache.find(vec![4], || unreachable!("it is held"));
-        cache.find(vec![3], || 3);
-        assert_eq!(held(), [1, 3, 4]);
-        // One that is too large for the cache is held until the next.
-        cache.find(vec![11], || 11);
-        assert_eq!(held(), [11]);
-        cache.find(vec![2], || 2);
-        assert_eq!(held(), [2]);
+        let all = [300, 600, 1200, 3001, 4000, 5001, 12_000];
+        let holds = |expected: &[usize]| {
+            let found: Vec<usize> = held(&all);
+            assert_eq!(found, expected);
+            assert_eq!(store.bytes(), expected.iter().map(|size| size + fixed).sum::<usize>());
+        };
+        holds(&[600, 4000, 5001]);
+        even.find(vec![4000], || unreachable!("it is stored"));
+        find(3001);
+        holds(&[600, 3001, 4000]);
+        // One that is too large for the store is there until the next.
+        find(12_000);
+        holds(&[12_000]);
+        find(300);
+        holds(&[300]);
+        for size in [600, 1200] {
+            find(size);
+        }
+        store.set_limit(2000);
+        holds(&[600, 1200]);
+        store.clear();
+        holds(&[]);
+        assert_eq!(find(600), 600);
     }
 }

@@ -73,6 +73,7 @@ pub mod weather_keys;
 pub mod year;
 pub mod year_keys;
 
+pub use cache::Store;
 pub use coefficients::Coefficients;
 pub use error::StudyError;
 pub use library::Library;

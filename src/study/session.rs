@@ -4,6 +4,7 @@
 
 pub(super) mod beam_responses;
 mod behind;
+mod bytes;
 mod creases;
 pub(super) mod data_share;
 mod emission;
@@ -28,7 +29,7 @@ mod through_room;
 pub(super) mod unit_beams;
 mod weights;
 
-use super::cache::{Cache, Key, bits};
+use super::cache::{Cache, Key, Store, bits};
 use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
@@ -56,7 +57,7 @@ pub use results::{LidResult, RoomResult, SensorResult};
 use seen::{Seen, SeenBands, bands_of, check, in_blocks, keeps, keeps_receptions, within_budget};
 use seen_cells::SeenCells;
 use sky_patches::SkyPatches;
-use sky_year::{ALL_NUMBERS, SkyYear, SunlitYear};
+use sky_year::{SkyYear, SunlitYear};
 use std::borrow::Cow;
 use std::sync::Arc;
 use std::time::Instant;
@@ -71,6 +72,10 @@ const DIRECT: &str = "direct light";
 /// Number of stages that progress reports for a room: emission, direct light, two meshes.
 const STEPS: usize = 4;
 
+/// Maximum memory of the stored results of a program that runs for one task. \[bytes\] Chosen: cost only, no effect on
+/// results.
+const OF_ONE_TASK: usize = 1 << 30;
+
 /// Session: caches of intermediate results for computing the light of scenes. One session lasts as long as the program,
 /// and is shared between threads.
 pub struct Session {
@@ -82,7 +87,6 @@ pub struct Session {
     responses: Cache<Vec<Response>>,
     unit_beams: Cache<UnitBeams>,
     sky_patches: Cache<SkyPatches>,
-    /// Light of the hours of years, within a number of values.
     sky_years: Cache<SkyYear>,
     sunlit_years: Cache<SunlitYear>,
     exact_skies: Cache<Vec<f64>>,
@@ -115,58 +119,48 @@ impl Default for Session {
 }
 
 impl Session {
-    /// Creates a session with empty caches.
-    pub const fn new() -> Self {
-        Self::keeping(1, false)
+    /// Creates a session with a store of its own.
+    pub fn new() -> Self {
+        Self::storing(&Arc::new(Store::new(OF_ONE_TASK)))
     }
 
-    /// Creates a session for work that goes from product to product and does not return to earlier ones: fewer results
-    /// are stored that depend on a product, and as many that depend on the room or the weather. The room is solved once
-    /// for all products, because light that panes and diffusers reflect is taken as uniform over each aperture. The
-    /// error of this is up to 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the
-    /// stated errors include it.
-    pub const fn passing() -> Self {
-        Self::keeping(3, true)
-    }
-
-    /// Returns the session with reflected light that varies from point to point of an aperture; a room is then solved
-    /// for every reflectance of the apertures.
-    #[must_use]
-    pub fn point_by_point(self) -> Self {
-        Self { reflects_uniformly: false, ..self }
-    }
-
-    /// Creates a session that stores 1 / `part` of the usual number of products' results. `reflects_uniformly`: whether
-    /// diffusely reflected light is taken as uniform over an aperture.
-    const fn keeping(part: usize, reflects_uniformly: bool) -> Self {
+    /// Creates a session whose results are in `store`; they share its limit with those of other sessions there.
+    pub fn storing(store: &Arc<Store>) -> Self {
         Self {
-            rooms: Cache::new(9),
-            gather: Cache::new(9),
-            reception: Cache::new(18),
-            seen_cells: Cache::new(6),
-            patches: Cache::new(24),
-            responses: Cache::new(6),
-            unit_beams: Cache::new(6),
-            sky_patches: Cache::new(6),
-            sky_years: Cache::sized(ALL_NUMBERS, SkyYear::size),
-            sunlit_years: Cache::new(6),
-            exact_skies: Cache::new(18),
-            trial_skies: Cache::new(3),
-            standing: Cache::new(3),
-            seen_patches: Cache::new(6),
-            cells_at_points: Cache::new(6),
-            by_cells: Cache::new(12),
-            by_nodes: Cache::new(6),
-            sides: Cache::new(12),
-            falling: Cache::new(24),
-            bands: Cache::new(18),
-            interpolators: Cache::new(6 / part),
-            suns: Cache::new(66 / part),
-            // All states of a blind: light and glare pass through them one after the other.
-            skies: Cache::new(21 / part),
-            peaks: Cache::new(6 / part),
-            reflects_uniformly,
+            rooms: Cache::new(store, Radiosity::bytes),
+            gather: Cache::new(store, |all| all.iter().flatten().map(bytes::of_reconstruction).sum()),
+            reception: Cache::new(store, |all| all.iter().map(bytes::of_reception).sum()),
+            seen_cells: Cache::new(store, SeenCells::bytes),
+            patches: Cache::new(store, PatchWeights::bytes),
+            responses: Cache::new(store, |all| all.iter().map(Response::bytes).sum()),
+            unit_beams: Cache::new(store, UnitBeams::bytes),
+            sky_patches: Cache::new(store, SkyPatches::bytes),
+            sky_years: Cache::new(store, SkyYear::bytes),
+            sunlit_years: Cache::new(store, sky_year::of_sunlit),
+            exact_skies: Cache::new(store, |values| size_of_val(&values[..])),
+            trial_skies: Cache::new(store, |skies| size_of_val(&skies[..])),
+            standing: Cache::new(store, Prepared::bytes),
+            seen_patches: Cache::new(store, |points| points.iter().map(|point| bytes::of_rows(point)).sum()),
+            cells_at_points: Cache::new(store, |all| all.iter().map(bytes::of_cells).sum()),
+            by_cells: Cache::new(store, ByCells::bytes),
+            by_nodes: Cache::new(store, |all| all.iter().map(ByCells::bytes).sum()),
+            sides: Cache::new(store, RoomSide::bytes),
+            falling: Cache::new(store, |rows| bytes::of_rows(rows)),
+            bands: Cache::new(store, |all| all.iter().map(|one| size_of_val(one) + one.bytes()).sum()),
+            interpolators: Cache::new(store, Interpolator::bytes),
+            suns: Cache::new(store, |(_, sun)| sun.bytes()),
+            skies: Cache::new(store, |(_, sky)| sky.bytes()),
+            peaks: Cache::new(store, |(_, peaks)| peaks.bytes()),
+            reflects_uniformly: false,
         }
+    }
+
+    /// Returns the session for work that goes from product to product: the room is solved once for all products,
+    /// because light that panes and diffusers reflect is taken as uniform over each aperture. The error of this is up to
+    /// 0.5 % near a patch of sun for a pane, and 0.03 % over a year for a white diffuser; the stated errors include it.
+    #[must_use]
+    pub fn passing(self) -> Self {
+        Self { reflects_uniformly: true, ..self }
     }
 
     /// Computes luminous flux and luminous intensity distribution of one aperture into the room (eq 5). `aperture`:

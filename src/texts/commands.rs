@@ -160,6 +160,10 @@ texts! {
     const TOUR_TIP = "Shows the first steps in the window itself; Escape ends the tour" | "Zeigt die ersten Schritte im Fenster selbst; Esc beendet den Rundgang";
     const KEYS = "Keyboard shortcuts" | "Tastenkürzel";
     const KEYS_TIP = "Lists all keyboard shortcuts" | "Listet alle Tastenkürzel";
+    const ABOUT = "About cfs" | "Über cfs";
+    const ABOUT_TIP = "Shows the version of the program and the memory of its stored results" | "Zeigt die Version des Programms und den Speicherbedarf seiner gespeicherten Ergebnisse";
+    const CLEAR_STORE = "Remove stored results" | "Gespeicherte Ergebnisse entfernen";
+    const CLEAR_STORE_TIP = "Frees their memory; what is needed again is computed again, with the same result" | "Gibt ihren Speicher frei; was wieder gebraucht wird, wird mit demselben Ergebnis neu berechnet";
     const QUIT = "Quit" | "Beenden";
     const QUIT_TIP = "Closes the window" | "Schließt das Fenster";
 }

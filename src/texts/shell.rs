@@ -34,6 +34,13 @@ texts! {
     const IMPORT = "Import" | "Import";
     const FINDINGS = "Findings of the dataset" | "Befunde zum Datensatz";
     const KEYS = "Keyboard shortcuts" | "Tastenkürzel";
+    const ABOUT = "About cfs" | "Über cfs";
+    fn version(number) = "Version {number}" | "Version {number}";
+    const STORED_RESULTS = "Stored results" | "Gespeicherte Ergebnisse";
+    const STORED_RESULTS_HELP = "Results that a new sky, time or product does not change are stored, so that the next computation is faster. Those used least recently are removed first; no result depends on what is stored." | "Ergebnisse, die sich mit Himmel, Zeit oder Produkt nicht ändern, werden gespeichert; die nächste Berechnung geht dann schneller. Zuerst werden die am längsten nicht benutzten entfernt; kein Ergebnis hängt davon ab, was gespeichert ist.";
+    const STORE_IN_USE = "In use" | "Belegt";
+    const STORE_LIMIT = "Maximum" | "Höchstens";
+    const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years, rankings and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre, Rangfolgen und große Räume";
     const ACCURACY = "Accuracy" | "Genauigkeit";
     const GONIOPHOTOMETER = "Goniophotometer" | "Goniophotometer";
     const PRODUCT = "Product" | "Produkt";

@@ -203,7 +203,7 @@ fn what_is_thrown_back_evenly_stays_within_the_errors() {
         let sun = coefficients.sun_estimate(&scene.sun.unwrap());
         coefficients.sky_estimate(&scene.outside).into_iter().zip(sun).map(|(sky, sun)| sky + sun).collect()
     };
-    let (own, evenly) = (light(&Session::new()), light(&Session::passing()));
+    let (own, evenly) = (light(&Session::new()), light(&Session::new().passing()));
     for (a, b) in own.iter().zip(&evenly) {
         assert!(
             (a.value - b.value).abs() <= a.error + b.error && (b.value / a.value - 1.0).abs() < 0.02,

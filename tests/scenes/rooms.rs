@@ -13,7 +13,7 @@ use cfs::study::system::{Need, ideal};
 use cfs::study::{RoomResult, Scene, SceneFile, Session, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 /// The parts of a scene's text that tests vary; the rest is the ordinary room.
 #[derive(Clone)]
@@ -137,7 +137,7 @@ impl SystemLibrary for Made {
 
 /// With a session that has seen all scenes of the test program before, as the window's has.
 pub fn compute(scene: &Scene) -> RoomResult {
-    static SESSION: Session = Session::new();
+    static SESSION: LazyLock<Session> = LazyLock::new(Session::new);
     SESSION.room(scene, &Silent).unwrap_or_else(|e| panic!("{e}"))
 }
 

@@ -5,9 +5,10 @@ use cfs::compute::estimate::{Estimate, Silent};
 use cfs::compute::quadrature::gauss_legendre;
 use cfs::compute::room::direct::Sensor;
 use cfs::study::{PatchLight, Scene, SensorResult, Session, SurfaceLight};
+use std::sync::LazyLock;
 
 fn surfaces(scene: &Scene) -> SurfaceLight {
-    static SESSION: Session = Session::new();
+    static SESSION: LazyLock<Session> = LazyLock::new(Session::new);
     SESSION.surfaces(scene, &Silent).unwrap()
 }
 

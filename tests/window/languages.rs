@@ -128,8 +128,8 @@ fn walk(harness: &mut Harness<'static, App>, look: &mut dyn FnMut(&Harness<'stat
         PathUse::ReplaceState,
         PathUse::ExportTile(TILES[0].tile),
     ];
-    let sheets = [Sheet::Import, Sheet::Findings, Sheet::Keys, Sheet::Accuracy, Sheet::Deleted, Sheet::Messages];
-    for sheet in sheets.into_iter().chain(paths.map(Sheet::Path)) {
+    let sheets = [Sheet::Import, Sheet::Findings, Sheet::Keys, Sheet::About, Sheet::Accuracy, Sheet::Deleted];
+    for sheet in sheets.into_iter().chain([Sheet::Messages]).chain(paths.map(Sheet::Path)) {
         apply(harness, Command::Sheet(None));
         apply(harness, Command::Sheet(Some(sheet)));
         look(harness, &format!("{sheet:?}"));

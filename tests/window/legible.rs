@@ -73,6 +73,7 @@ impl Problems {
             Sheet::Import,
             Sheet::Findings,
             Sheet::Keys,
+            Sheet::About,
             Sheet::Accuracy,
             Sheet::Goniophotometer,
             Sheet::Path(PathUse::Open),

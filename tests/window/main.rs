@@ -1,5 +1,6 @@
 //! The window without a display: found by name, operated by mouse and keyboard, looked at.
 
+mod about;
 mod accuracy_view;
 mod app;
 mod app_engine;

@@ -1,6 +1,7 @@
 //! Panels round the tiles: catalogue, scene, menus, status line, side panels. Each reads the state of the window and
 //! returns commands.
 
+mod about;
 pub mod bench;
 mod catalogue;
 mod compare;

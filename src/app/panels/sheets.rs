@@ -2,7 +2,7 @@
 //! window.
 
 use super::fields::take_keyboard;
-use super::{import, messages, product, sets};
+use super::{about, import, messages, product, sets};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::offer::{key_words, listed};
@@ -20,6 +20,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Import => shell::IMPORT,
         Sheet::Findings => shell::FINDINGS,
         Sheet::Keys => shell::KEYS,
+        Sheet::About => shell::ABOUT,
         Sheet::Accuracy => shell::ACCURACY,
         Sheet::Goniophotometer => shell::GONIOPHOTOMETER,
         Sheet::Product => shell::PRODUCT,
@@ -61,6 +62,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
             }
         },
         Sheet::Keys => keys(ui),
+        Sheet::About => about::show(ui, app, commands),
         Sheet::Accuracy => ladder(ui, app, commands),
         Sheet::Goniophotometer => super::goniophotometer::show(ui, app, commands),
         Sheet::Product => product::edit(ui, &app.state, commands),

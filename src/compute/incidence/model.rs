@@ -155,6 +155,11 @@ fn followed_of(
 }
 
 impl Model {
+    /// Returns the memory that the samples of its lobes take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.rasters.iter().flatten().map(Raster::bytes).sum()
+    }
+
     /// Creates the model of measured indicatrices: divides each into base and lobes and follows the lobes to the
     /// neighbouring incident directions.
     pub fn new(data: Arc<Indicatrices>) -> Self {

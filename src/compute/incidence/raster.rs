@@ -48,6 +48,11 @@ impl Raster {
         Self { x, y, z: lobe.centre, count, spacing, half, values }
     }
 
+    /// Returns the memory that its samples take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.values[..])
+    }
+
     /// Returns the lobe rotated so that its centre lies in the direction `centre`.
     pub fn turned(&self, centre: DVec3) -> Turned<'_> {
         self.turned_by(glam::DQuat::from_rotation_arc(self.z, centre))

@@ -55,6 +55,11 @@ impl Interpolator {
         Self { sun_grid: sun_grid(&model), model }
     }
 
+    /// Returns the memory that its lobes take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.model.bytes()
+    }
+
     /// Returns the emergent cells for scattered sunlight, which subdivide those of the data.
     pub fn sun_grid(&self) -> &Grid {
         &self.sun_grid

@@ -161,6 +161,21 @@ impl SkyThrough {
         Self::on(model, Arc::clone(sun_cells()))
     }
 
+    /// Returns the memory that its responses take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        let turned: usize = match &self.turned {
+            Turned::None => 0,
+            Turned::ByCell(sources) => sources.iter().map(|sources| size_of_val(&sources[..])).sum(),
+            Turned::ByProfile { sources, .. } => sources.iter().map(|sources| size_of_val(&sources[..])).sum(),
+        };
+        let scattered: usize = match &self.scattered {
+            Scattered::None => 0,
+            Scattered::ByProfile { rows, .. } => rows.iter().map(|row| size_of_val(&row.q[..])).sum(),
+            Scattered::ByCells { rows, .. } => rows.iter().map(|row| size_of_val(&row[..])).sum(),
+        };
+        size_of_val(&self.straight[..]) + turned + scattered
+    }
+
     /// Computes the response of a system on given cells.
     fn on(model: &dyn OpticalModel, cells: Arc<RingBasis>) -> Self {
         // Quantities that are computed once for all directions are computed first, so that parallel threads do not wait

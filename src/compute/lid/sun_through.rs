@@ -111,6 +111,14 @@ impl SunThrough {
         Self { illuminance: facing.sun_illuminance(), beams: sun_beams(model, facing), bands, cells }
     }
 
+    /// Returns the memory that its luminances take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        let cells = self.cells.iter();
+        let cells = cells.flat_map(|light| [&light.diffuse, &light.sun].into_iter().chain(&light.uncertainties));
+        let bands = self.bands.iter().map(|bands| &bands.light.q);
+        cells.chain(bands).map(|values| size_of_val(&values[..])).sum()
+    }
+
     /// Computes the beams behind a described system without its scattered light.
     pub fn beams_alone(model: &dyn OpticalModel, facing: &Facing<'_>) -> Self {
         let beams = sun_beams(model, facing);

@@ -136,6 +136,11 @@ pub struct RoomSide {
 }
 
 impl RoomSide {
+    /// Returns the memory that its weights take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        2 * size_of_val(&self.by_patch[..])
+    }
+
     /// Computes the weights for the cells of `weights` of one aperture.
     pub fn new(radiosity: &Radiosity, aperture: &Aperture, weights: &PatchWeights) -> Self {
         let falling = weights.falling(&radiosity.nested.fine, aperture);

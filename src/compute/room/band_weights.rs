@@ -31,6 +31,11 @@ impl BandWeights {
         Self { first, weights: weights[first..end].to_vec() }
     }
 
+    /// Returns the memory that its weights take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.weights[..])
+    }
+
     /// Returns the indices of the visible bands with their weights. \[sr\]
     pub fn each(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.weights.iter().enumerate().map(|(k, weight)| (self.first + k, *weight))

@@ -66,6 +66,11 @@ pub(super) fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
 }
 
 impl PatchWeights {
+    /// Returns the memory that its weights take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.rows.iter().map(|row| size_of_val(&row[..])).sum()
+    }
+
     /// Computes the weights for an aperture and the emergent cells of a basis, for all patches that see the aperture's
     /// room side.
     pub fn new(mesh: &Mesh, aperture: &Aperture, basis: Arc<RingBasis>) -> Self {

@@ -95,6 +95,15 @@ impl Radiosity {
         Ok(Self { nested, level, coarser })
     }
 
+    /// Returns the memory that its matrices and patches take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        let matrices = |level: &MeshBalance| {
+            let exchange = level.exchange.matrix();
+            size_of::<f64>() * (exchange.nrows() * exchange.ncols() + level.active.len().pow(2))
+        };
+        size_of::<Patch>() * self.nested.fine.patches.len() + matrices(&self.level) + matrices(&self.coarser)
+    }
+
     /// Computes the exitance of every patch by all reflections, from the direct illuminance `first` of the fine patches
     /// \[lx\].
     pub fn exitance(&self, first: &[f64]) -> Exitance {

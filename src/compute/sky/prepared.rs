@@ -285,6 +285,12 @@ impl Prepared {
         self.number
     }
 
+    /// Returns the memory that its matrices take, with the interreflection for one reflectance of the ground. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        let (nodes, all) = (self.source.len(), self.exchange.panels().places.len());
+        size_of::<f32>() * ((2 * nodes + all) * self.lighting.len() + nodes * all)
+    }
+
     /// Returns the boxes of the obstructions, without building and ground.
     pub fn boxes(&self) -> &[Solid] {
         &self.boxes

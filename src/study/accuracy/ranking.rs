@@ -105,7 +105,7 @@ pub fn ranking(
         let clock = Instant::now();
         // The reference is computed without approximations of the session.
         let finest = k + 1 == efforts.len();
-        let session = if finest { Session::passing().point_by_point() } else { Session::passing() };
+        let session = if finest { Session::new() } else { Session::new().passing() };
         let lists = lists(groups, *effort, library, &session, &Inner(progress))?;
         found.push((scores(&lists), clock.elapsed().as_secs_f64()));
     }

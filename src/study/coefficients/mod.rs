@@ -31,7 +31,7 @@ mod sun_way;
 mod transport;
 mod views;
 
-use super::cache::Cache;
+use super::cache::{Cache, Store};
 use super::error::StudyError;
 use super::scene::Scene;
 use super::scene_file::ORDINARY_TARGET;
@@ -141,7 +141,8 @@ impl Coefficients {
             || scene.room.walls > 0.0
             || scene.room.ceiling > 0.0
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
-        let direct = Cache::new(scene.apertures.len());
+        // All meshes of the room share it, for each aperture.
+        let direct = Cache::new(&Arc::new(Store::new(usize::MAX)), |_| 0);
         if !(scene.interreflection && reflects) {
             let mut coefficients = Self::with(session, scene, prepared, None, &direct, progress)?;
             coefficients.add_data_uncertainty(session, progress)?;

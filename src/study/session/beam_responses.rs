@@ -42,6 +42,11 @@ impl ReflectedBeamLight {
 }
 
 impl BeamResponses {
+    /// Returns the memory that the responses take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.rows[..])
+    }
+
     /// Creates the responses to beams. `gather`: weights with which the sensors see the patches of the fine and the
     /// coarse mesh; `sensors`: responses of the sensors to the first illuminances of the patches.
     pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {

@@ -42,6 +42,11 @@ impl SeenCells {
         Self { sensors, first, rows }
     }
 
+    /// Returns the memory that the rows take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.first[..]) + size_of_val(&self.rows[..])
+    }
+
     /// Adds the direct illuminances at the sensors by an emergent cell of the given luminance \[cd/m²\] to `out`.
     /// \[lx\]
     #[inline]

@@ -27,6 +27,11 @@ pub(crate) struct SkyPatches {
 }
 
 impl SkyPatches {
+    /// Returns the memory that directions and illuminances take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.samples.len() * size_of::<[f64; 4]>() + size_of_val(&self.ground[..]) + size_of_val(&self.skyline[..])
+    }
+
     /// Creates the patches in front of an aperture of a scene. `patches`: basis of the incident hemisphere; `spacing`:
     /// maximum distance between the directions \[rad\].
     pub fn new(scene: &Scene, index: usize, patches: RingBasis, spacing: f64) -> Self {

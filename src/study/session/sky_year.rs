@@ -8,11 +8,17 @@ use std::sync::OnceLock;
 /// Maximum number of values of a year that are stored: 12,000 in each of 8,784 hours. Half of these are dark, so that
 /// they take 210 MB.
 pub(super) const MOST_NUMBERS: usize = 12_000 * 8784;
-/// Maximum number of values of all years together: for behind boxes, luminances and what enters at the nodes.
-pub(super) const ALL_NUMBERS: usize = MOST_NUMBERS + MOST_NUMBERS / 2;
+/// Memory of the sunlit part of an aperture in an hour with sun: its outline, and its shares of 169 points and 9 nodes.
+/// \[bytes\]
+const SUNLIT: usize = 3000;
 
 /// Sunlit part of an aperture in each hour of a year, computed at its first use.
 pub(crate) type SunlitYear = Vec<OnceLock<SunlitPart>>;
+
+/// Returns the memory of the sunlit parts of a year when all hours are computed, half of which are dark. \[bytes\]
+pub(super) fn of_sunlit(hours: &SunlitYear) -> usize {
+    size_of_val(&hours[..]) + hours.len() / 2 * SUNLIT
+}
 
 /// Values of a sky in each hour of a year, computed at their first use; in single precision, 6 · 10⁻⁸ of each value.
 pub(crate) struct SkyYear {
@@ -26,9 +32,9 @@ impl SkyYear {
         Self { hours: (0..hours).map(|_| OnceLock::new()).collect(), numbers }
     }
 
-    /// Returns the number of values that the store holds when all hours are computed.
-    pub fn size(&self) -> usize {
-        self.hours.len() * self.numbers
+    /// Returns the memory that the values take when all hours are computed, half of which are dark. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.hours[..]) + self.hours.len() / 2 * self.numbers * size_of::<f32>()
     }
 
     /// Whether the values of an hour are stored.

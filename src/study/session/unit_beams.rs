@@ -68,6 +68,11 @@ impl UnitBeams {
         Self { responses, known: Mutex::default() }
     }
 
+    /// Returns the memory that responses and beams take once as many beams are stored as may be. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.responses.bytes() + MOST_NUMBERS * size_of::<f32>()
+    }
+
     /// Returns the responses of the sensors to beams of any direction.
     pub fn responses(&self) -> &BeamResponses {
         &self.responses

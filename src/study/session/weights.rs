@@ -1,5 +1,6 @@
 //! Responses of the sensors to light on the patches of the room and on cells, for storage in a session.
 
+use super::bytes::of_rows;
 use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
 use std::ops::Range;
@@ -15,12 +16,26 @@ pub(crate) struct Response {
     pub walls: Vec<Vec<f64>>,
 }
 
+impl Response {
+    /// Returns the memory that the weights take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.value[..]) + of_rows(&self.walls)
+    }
+}
+
 /// Interreflected illuminances at the sensors per luminance of each emergent cell, sensor by sensor. \[lx per cd/m²\]
 pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
     /// Differences of these illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall; empty
     /// where not requested. \[lx per cd/m²\]
     pub walls: Vec<Vec<Vec<f64>>>,
+}
+
+impl ByCells {
+    /// Returns the memory that the illuminances take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        of_rows(&self.value) + self.walls.iter().map(|walls| of_rows(walls)).sum::<usize>()
+    }
 }
 
 /// Returns the weights with which a sensor sees the patches of each wall, in the fine and the coarse mesh.

@@ -112,6 +112,11 @@ fn dark_points(path: usize, points: &[Point], noise: f64) -> Vec<Observation> {
 }
 
 impl Peaks {
+    /// Returns the memory that the light of the incident cells takes. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.rest.iter().map(|rest| size_of_val(&rest.even[..]) + size_of_val(&rest.uneven[..])).sum()
+    }
+
     /// Divides patch-averaged data into beams and the other light. `sun`: direction of the sun; with more than
     /// [`MOST_CELLS`] incident cells only the nearest to it are used.
     pub fn new(matrix: &CellMatrix, sun: Dir<Facade>) -> Self {
