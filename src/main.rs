@@ -4,6 +4,9 @@ use cfs::study::fault;
 use clap::Parser as _;
 use std::process::ExitCode;
 
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     let arguments = cfs::cli::Arguments::parse();
     // A command reports its own panics, in one sentence.
