@@ -276,7 +276,7 @@ impl Shelf for CatalogueShelf {
     }
 }
 
-/// Engine of the window that computes by the study, with the caches of its sessions.
+/// Engine of the window that computes by the study, with one store for the results of its sessions.
 pub struct StudyEngine {
     store: Arc<Store>,
     session: Session,

@@ -33,7 +33,7 @@ impl App {
             self.open_catalogue();
         }
         self.follow_text_size(ctx);
-        let limit = self.state.settings.store_limit * MEGABYTE;
+        let limit = self.state.settings.store_limit.saturating_mul(MEGABYTE);
         self.services.engine.store().into_iter().for_each(|store| store.set_limit(limit));
         self.poll();
         // Another window or the command line may have changed the catalogue meanwhile.

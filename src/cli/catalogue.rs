@@ -192,7 +192,7 @@ fn show(catalogue: &Catalogue, args: &ShowArgs) -> anyhow::Result<()> {
         ("about", &product.description),
         ("tags", &tags),
         ("origin", from.origin.word()),
-        ("by", &from.author),
+        ("author", &from.author),
         ("method", &from.method),
         ("date", &from.date),
         ("source", &from.source_file),

@@ -90,7 +90,7 @@ fn fields(subject: &Subject) -> Vec<(&'static str, String)> {
         ("maker", product.map_or_else(|| dataset.manufacturer.clone(), |product| product.manufacturer.clone())),
         ("kind", of(|product| &product.kind)),
         ("states", states_words(product.map_or(1, |product| product.states.len()))),
-        ("state", if subject.state.is_empty() { texts::THE_ONLY_ONE.into() } else { subject.state.clone() }),
+        ("state", if subject.state.is_empty() { texts::SINGLE_STATE.into() } else { subject.state.clone() }),
         ("tau_normal", figure(figures.tau_normal)),
         ("tau_hemispherical", figure(figures.tau_hemispherical)),
         ("to_ceiling", share(figures.light.and_then(|light| light.to_ceiling))),
@@ -357,7 +357,7 @@ pub(super) fn provenance(pages: &mut Pages, subject: &Subject) {
             let from = &product.provenance;
             add(texts::ORIGIN, origin_words(from.origin).get());
             add(texts::METHOD, &from.method);
-            add(texts::BY, &from.author);
+            add(texts::AUTHOR, &from.author);
             add(texts::DATE, &from.date);
             add(texts::FILE, &from.source_file);
             add(texts::HASH, &from.source_hash);

@@ -1,5 +1,5 @@
-//! Store of results that do not depend on a changed sky, time or product: found by exact keys, within one limit of
-//! memory, the least recently used out first.
+//! Store of results for later computations: found by exact keys, within one limit of memory, the least recently used out
+//! first.
 
 use hashlink::LruCache;
 use std::any::Any;
@@ -20,8 +20,8 @@ struct Stored {
     limit: usize,
     /// Memory of all results. \[bytes\]
     bytes: usize,
-    /// Number of the next cache.
-    next: usize,
+    /// Number of caches.
+    caches: usize,
     /// Results by the number of their cache and by key, the least recently used first.
     results: LruCache<(usize, Key), Entry>,
 }
@@ -35,7 +35,7 @@ struct Entry {
 impl Store {
     /// Creates an empty store whose results take at most `limit` bytes; the last result is stored whatever its size.
     pub fn new(limit: usize) -> Self {
-        Self(Mutex::new(Stored { limit, bytes: 0, next: 0, results: LruCache::new_unbounded() }))
+        Self(Mutex::new(Stored { limit, bytes: 0, caches: 0, results: LruCache::new_unbounded() }))
     }
 
     // What is stored is whole even if another thread has failed while it held the lock.
@@ -53,9 +53,8 @@ impl Store {
         let mut stored = self.lock();
         stored.limit = limit;
         let removed = stored.within_limit();
-        // Freed without holding the lock.
         drop(stored);
-        drop(removed);
+        free(removed);
     }
 
     /// Removes all results.
@@ -64,18 +63,23 @@ impl Store {
         stored.bytes = 0;
         let removed = std::mem::replace(&mut stored.results, LruCache::new_unbounded());
         drop(stored);
-        drop(removed);
+        free(removed);
     }
+}
+
+/// Frees results on another thread, because that takes time, and who sets a limit does not wait.
+fn free(removed: impl Send + 'static) {
+    rayon::spawn(move || drop(removed));
 }
 
 impl Stored {
     /// Removes the least recently used results until the others are within the limit, and returns them.
-    fn within_limit(&mut self) -> Vec<Entry> {
+    fn within_limit(&mut self) -> Vec<((usize, Key), Entry)> {
         let mut removed = Vec::new();
         while self.bytes > self.limit && self.results.len() > 1 {
-            let Some((_, entry)) = self.results.remove_lru() else { break };
-            self.bytes -= entry.bytes;
-            removed.push(entry);
+            let Some(result) = self.results.remove_lru() else { break };
+            self.bytes -= result.1.bytes;
+            removed.push(result);
         }
         removed
     }
@@ -90,12 +94,12 @@ pub struct Cache<T> {
 }
 
 impl<T: Send + Sync + 'static> Cache<T> {
-    /// Creates the results of a new kind in `store`. `size`: returns the memory of a result as large as it may become.
-    /// \[bytes\]
+    /// Creates the results of a new kind in `store`. `size`: returns the memory of a result, one that grows as large as it
+    /// usually becomes. \[bytes\]
     pub fn new(store: &Arc<Store>, size: fn(&T) -> usize) -> Self {
         let mut stored = store.lock();
-        stored.next += 1;
-        Self { store: Arc::clone(store), number: stored.next, size, kind: PhantomData }
+        stored.caches += 1;
+        Self { store: Arc::clone(store), number: stored.caches, size, kind: PhantomData }
     }
 
     /// Whether the result of a key is stored.
@@ -115,15 +119,16 @@ impl<T: Send + Sync + 'static> Cache<T> {
             return Ok(value);
         }
         let value = Arc::new(compute()?);
+        let bytes = (self.size)(&value) + size_of::<T>() + size_of_val(&place.1[..]);
         let mut stored = self.store.lock();
         if let Some(value) = known(&mut stored) {
             return Ok(value);
         }
-        let bytes = (self.size)(&value) + size_of::<T>() + size_of_val(&place.1[..]);
         let entry = Entry { value: Arc::clone(&value) as Arc<dyn Any + Send + Sync>, bytes };
         stored.results.insert(place, entry);
         stored.bytes += bytes;
         let removed = stored.within_limit();
+        // Freed without holding the lock.
         drop(stored);
         drop(removed);
         Ok(value)

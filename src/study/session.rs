@@ -1,5 +1,5 @@
-//! Sessions compute the light of scenes, and store everything that does not change between them: factored rooms, and
-//! the responses of sensors and surfaces to each aperture. A new sky, time or product on the same basis then costs only
+//! Sessions compute the light of scenes, and store what does not change between them, within a limit of memory: factored
+//! rooms, and the responses of sensors and surfaces to each aperture. A new sky, time or product on the same basis then costs only
 //! matrix products.
 
 pub(super) mod beam_responses;
@@ -34,7 +34,6 @@ use super::error::StudyError;
 use super::plan::Plan;
 use super::scene::Scene;
 use super::scene_file::Interpolation;
-use super::system::SystemModel;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::Dataset;
 use crate::compute::estimate::{Estimate, Progress};
@@ -50,6 +49,7 @@ use crate::compute::room::near_field::{Integrator, NearField};
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::compute::sky::{Counts, Outside, Prepared};
+pub(crate) use emission::OfModel;
 pub use outside_seen::OutsideSeen;
 use rayon::prelude::*;
 use results::all_numbers;
@@ -59,7 +59,7 @@ use seen_cells::SeenCells;
 use sky_patches::SkyPatches;
 use sky_year::{SkyYear, SunlitYear};
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::time::Instant;
 pub use surfaces::{PatchLight, SurfaceLight};
 use targets::cubature;
@@ -75,6 +75,10 @@ const STEPS: usize = 4;
 /// Maximum memory of the stored results of a program that runs for one task. \[bytes\] Chosen: cost only, no effect on
 /// results.
 const OF_ONE_TASK: usize = 1 << 30;
+
+/// Maximum memory of the light of systems by position of the sun: all states of a blind and all eyes in one hour.
+/// \[bytes\] Chosen: cost only, no effect on results.
+const OF_SUNS: usize = 8 << 20;
 
 /// Session: caches of intermediate results for computing the light of scenes. One session lasts as long as the program,
 /// and is shared between threads.
@@ -103,11 +107,12 @@ pub struct Session {
     falling: Cache<Vec<Vec<f64>>>,
     bands: Cache<Vec<BandWeights>>,
     interpolators: Cache<Interpolator>,
-    suns: Cache<(SystemModel, SunThrough)>,
-    skies: Cache<(SystemModel, SkyThrough)>,
-    /// Peaks extracted from datasets. The datasets are stored with them, so that no other dataset can have the same
-    /// address.
-    peaks: Cache<(Arc<Dataset>, Peaks)>,
+    /// Light of systems by position of the sun, in a store of its own, so that the hours of a year do not remove all
+    /// else.
+    suns: Cache<OfModel<SunThrough>>,
+    skies: Cache<OfModel<SkyThrough>>,
+    /// Peaks extracted from datasets, with references that keep their addresses from being used again.
+    peaks: Cache<(Weak<Dataset>, Peaks)>,
     /// Whether light that an aperture reflects diffusely is taken as uniform over the aperture.
     reflects_uniformly: bool,
 }
@@ -148,7 +153,7 @@ impl Session {
             falling: Cache::new(store, |rows| bytes::of_rows(rows)),
             bands: Cache::new(store, |all| all.iter().map(|one| size_of_val(one) + one.bytes()).sum()),
             interpolators: Cache::new(store, Interpolator::bytes),
-            suns: Cache::new(store, |(_, sun)| sun.bytes()),
+            suns: Cache::new(&Arc::new(Store::new(OF_SUNS)), |(_, sun)| sun.bytes()),
             skies: Cache::new(store, |(_, sky)| sky.bytes()),
             peaks: Cache::new(store, |(_, peaks)| peaks.bytes()),
             reflects_uniformly: false,
@@ -353,7 +358,7 @@ impl Session {
         self.kept_bands(scene, index, (upright, count), progress).map(SeenBands::Kept)
     }
 
-    /// Returns the responses of all sensors for a number of bands of the profile angle, always stored. `upright`:
+    /// Returns the responses of all sensors for a number of bands of the profile angle, computed or stored. `upright`:
     /// whether the profile angle is in the horizontal plane (vertical structures).
     pub(super) fn kept_bands(
         &self,

@@ -171,7 +171,7 @@ texts! {
     const KEY = "Key" | "Schlüssel";
     const ANGLE_DEGREES = "Angle [°]" | "Winkel [°]";
     const ANGLE = "Angle" | "Winkel";
-    const THE_ONLY_ONE = "the only one" | "die einzige";
+    const SINGLE_STATE = "single state" | "einzige Stellung";
     fn of_state(what, state) = "{what} of state {state}" | "{what} der Stellung {state}";
     const REPLACE = "Replace…" | "Ersetzen…";
     const REPLACE_TIP = "Reads other data for this state from a file" | "Liest andere Daten für diese Stellung aus einer Datei";

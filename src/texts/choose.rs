@@ -68,10 +68,10 @@ texts! {
     const AGAINST = "against" | "gegen";
     const AGAINST_TIP = "Selects the product to compare with; Shift and a click on a row does the same" | "Wählt das Produkt zum Vergleichen; Umschalt und ein Klick auf eine Zeile tut dasselbe";
     const THE_BEST = "the best" | "das beste";
-    fn surely_above(score, other) = "{score} above {other}" | "{score} über {other}";
-    fn surely_below(score, other) = "{score} below {other}" | "{score} unter {other}";
-    fn open_above(score, other) = "{score} above {other}, within the uncertainty" | "{score} über {other}, innerhalb der Unsicherheit";
-    fn open_below(score, other) = "{score} below {other}, within the uncertainty" | "{score} unter {other}, innerhalb der Unsicherheit";
+    fn surely_above(score, other) = "{score} higher than {other}" | "um {score} höher als {other}";
+    fn surely_below(score, other) = "{score} lower than {other}" | "um {score} niedriger als {other}";
+    fn open_above(score, other) = "{score} higher than {other}, within the uncertainty" | "um {score} höher als {other}, innerhalb der Unsicherheit";
+    fn open_below(score, other) = "{score} lower than {other}, within the uncertainty" | "um {score} niedriger als {other}, innerhalb der Unsicherheit";
     fn by_objective(score, name, own, other) = "{score} by {name}: {own} against {other}" | "{score} durch {name}: {own} gegen {other}";
     fn part_is(value, when) = "{value} in {when}" | "{value} bei {when}";
     const INTO_ROOM = "Put into the room" | "In den Raum setzen";

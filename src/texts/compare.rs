@@ -102,7 +102,7 @@ texts! {
     const GREATEST_TIP = "Largest illuminance of the calculation points; far above the others it may cause glare" | "Größte Beleuchtungsstärke der Berechnungspunkte; weit über den anderen kann sie blenden";
     const UNIFORMITY = "Uniformity U_o" | "Gleichmäßigkeit U_o";
     const UNIFORMITY_TIP = "Minimum to mean illuminance, E_min/E_mean (EN 12464)" | "Kleinste zu mittlerer Beleuchtungsstärke, E_min/E_m (EN 12464)";
-    const SHARE_300 = "Points with 300 lx" | "Punkte mit 300 lx";
+    const SHARE_300 = "Points with ≥ 300 lx" | "Punkte mit ≥ 300 lx";
     const SHARE_300_TIP = "Share of the calculation points with at least 300 lx, the minimum level of EN 17037" | "Anteil der Berechnungspunkte mit mindestens 300 lx, der Stufe gering der EN 17037";
 
     // Axes of the curves.

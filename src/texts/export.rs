@@ -71,7 +71,7 @@ texts! {
     const PRODUCT_SHEET = "Product sheet" | "Produktblatt";
     const ONE_STATE = "one state" | "eine Stellung";
     fn states_are(count) = "{count} states" | "{count} Stellungen";
-    const THE_ONLY_ONE = "single state" | "einzige Stellung";
+    const SINGLE_STATE = "single state" | "einzige Stellung";
     const NOT_OF_CATALOGUE = "not of the catalogue" | "nicht aus dem Katalog";
     const FIGURES = "Figures" | "Kennwerte";
     fn figures_of(state) = "Figures, state {state}" | "Kennwerte, Stellung {state}";
@@ -109,7 +109,7 @@ texts! {
     fn in_use_note(situation, width, height) = "{situation}; an aperture of {width} × {height} m." | "{situation}; eine Öffnung von {width} × {height} m.";
     const ORIGIN = "origin" | "Herkunft";
     const METHOD = "method" | "Verfahren";
-    const BY = "by" | "von";
+    const AUTHOR = "author" | "Autor";
     const DATE = "date" | "Datum";
     const FILE = "file" | "Datei";
     const HASH = "BLAKE3 of the source" | "BLAKE3 der Quelle";
@@ -213,7 +213,7 @@ texts! {
     const IN_TILES_TIP = "Splits the aperture into as many luminaires as light a room within 1 %, with an index of their positions; one file alone blurs patches of sun" | "Teilt die Öffnung in so viele Leuchten, wie einen Raum auf 1 % genau beleuchten, mit einem Verzeichnis ihrer Orte; eine einzelne Datei verwischt Sonnenflecken";
     const WITHOUT_BEAM = "Without direct sunlight" | "Ohne direktes Sonnenlicht";
     const WITHOUT_BEAM_TIP = "Leaves direct sunlight to the other program; its flux and direction are in the file header" | "Überlässt direktes Sonnenlicht dem anderen Programm; Lichtstrom und Richtung stehen im Dateikopf";
-    const TILES_LATER = "index of the luminaires; their number is found while writing, into a folder of their own" | "Verzeichnis der Leuchten; ihre Zahl ergibt sich beim Schreiben, in einen eigenen Ordner";
+    const TILES_LATER = "list of the luminaires, which are written to a folder of their own; the export determines their number" | "Verzeichnis der Leuchten, die in einen eigenen Ordner geschrieben werden; ihre Zahl bestimmt der Export";
     const FIRST_TILE = "the first luminaire" | "die erste Leuchte";
     fn stage_left(stage, seconds) = "{stage}, about {seconds} s left" | "{stage}, noch etwa {seconds} s";
     const ON_THE_21ST = "On the 21st of" | "Am 21.";
@@ -227,8 +227,8 @@ texts! {
     const THIS_EXISTS = "A file of this name already exists." | "Eine Datei dieses Namens gibt es schon.";
     const REPLACE = "Replace" | "Ersetzen";
     const REPLACE_TIP = "Overwrites the file" | "Überschreibt die Datei";
-    const OTHER_NAME = "Other name" | "Anderer Name";
-    const OTHER_NAME_TIP = "Keeps the file and asks for another name" | "Behält die Datei und fragt nach einem anderen Namen";
+    const CHANGE_NAME = "Change the name" | "Namen ändern";
+    const CHANGE_NAME_TIP = "Keeps the file and asks for another name" | "Behält die Datei und fragt nach einem anderen Namen";
     const STOP = "Cancel" | "Abbrechen";
     const STOP_TIP = "Cancels the export; nothing is written" | "Bricht den Export ab; nichts wird geschrieben";
     const WRITE = "Write" | "Schreiben";

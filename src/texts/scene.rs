@@ -42,7 +42,7 @@ texts! {
     fn beyond_facade(number, width, height) = "Aperture {number} extends beyond the façade, {width} × {height} m: move it or make it smaller." | "Öffnung {number} reicht über die Fassade hinaus, {width} × {height} m: verschieben oder verkleinern.";
     fn beyond_roof(number, width, height) = "Aperture {number} extends beyond the roof, {width} × {height} m: move it or make it smaller." | "Öffnung {number} reicht über das Dach hinaus, {width} × {height} m: verschieben oder verkleinern.";
     fn overlap(one, other) = "Apertures {one} and {other} overlap: move one of them." | "Die Öffnungen {one} und {other} überlappen: eine davon verschieben.";
-    fn numbered_in(number) = "{number} in the" | "{number} in";
+    fn aperture_number(number) = "Aperture {number}:" | "Öffnung {number}:";
     const REMOVE_APERTURE = "Remove this aperture" | "Diese Öffnung entfernen";
     fn remove_aperture(number) = "Remove aperture {number}" | "Öffnung {number} entfernen";
     const MADE_SMALLER = "Made smaller to fit there." | "Verkleinert, damit sie dort passt.";
@@ -116,7 +116,7 @@ texts! {
     const DIRT = "Dirt factor k₂" | "Verschmutzungsfaktor k₂";
     const SKYLINE_EVEN = "Uniform skyline" | "Gleichförmige Horizontlinie";
     const SKYLINE_EVEN_TIP = "Uses one elevation all round; if off, the skyline is given by bearing" | "Verwendet rundum eine Höhe; sonst ist die Horizontlinie nach der Richtung gegeben";
-    fn skyline_bearing(number) = "Bearing {number}" | "Richtung {number}";
+    fn skyline_bearing(number) = "Bearing of point {number}" | "Himmelsrichtung von Punkt {number}";
     fn skyline_altitude(number) = "Elevation {number}" | "Höhe {number}";
     fn remove_knot(number) = "Remove point {number} of the skyline" | "Punkt {number} der Horizontlinie entfernen";
     const ADD_KNOT = "Add a point" | "Punkt hinzufügen";

@@ -37,7 +37,7 @@ texts! {
     const ABOUT = "About cfs" | "Über cfs";
     fn version(number) = "Version {number}" | "Version {number}";
     const STORED_RESULTS = "Stored results" | "Gespeicherte Ergebnisse";
-    const STORED_RESULTS_HELP = "Results that a new sky, time or product does not change are stored, so that the next computation is faster. Those used least recently are removed first; no result depends on what is stored." | "Ergebnisse, die sich mit Himmel, Zeit oder Produkt nicht ändern, werden gespeichert; die nächste Berechnung geht dann schneller. Zuerst werden die am längsten nicht benutzten entfernt; kein Ergebnis hängt davon ab, was gespeichert ist.";
+    const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those used least recently are removed first; no result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die am längsten nicht benutzten entfernt; kein Ergebnis hängt davon ab, was gespeichert ist.";
     const STORE_IN_USE = "In use" | "Belegt";
     const STORE_LIMIT = "Maximum" | "Höchstens";
     const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years, rankings and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre, Rangfolgen und große Räume";
@@ -72,8 +72,8 @@ texts! {
     const WRITE = "Write" | "Schreiben";
     const EXISTS = "A file of this name already exists." | "Eine Datei dieses Namens gibt es schon.";
     const WRITE_OVER = "Overwrite" | "Überschreiben";
-    const OTHER_NAME = "Other name" | "Anderer Name";
-    const OTHER_NAME_TIP = "Keeps the file and asks for another name" | "Behält die Datei und fragt nach einem anderen Namen";
+    const CHANGE_NAME = "Change the name" | "Namen ändern";
+    const CHANGE_NAME_TIP = "Keeps the file and asks for another name" | "Behält die Datei und fragt nach einem anderen Namen";
 
     const NOTE = "note" | "Hinweis";
     const DONE = "done" | "erledigt";

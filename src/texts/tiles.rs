@@ -112,7 +112,7 @@ texts! {
     const NO_SCHEMES_CLOSED = "No map of schemes: these data are analytical, exact for every direction." | "Keine Karte der Schemata: die Daten sind analytisch, exakt für jede Richtung.";
     const NO_SCHEMES_PATCHES = "No map of schemes: in this scene every direction represents its patch." | "Keine Karte der Schemata: in dieser Szene steht jede Richtung für ihr Feld.";
     const NO_SCHEMES_TRIANGLES = "No map of schemes: the directions form no triangles." | "Keine Karte der Schemata: die Richtungen bilden keine Dreiecke.";
-    const SCHEMES_COMING = "Omitting each direction in turn…" | "Jede Richtung wird einmal ausgelassen…";
+    const SCHEMES_COMING = "Interpolating each direction from the others…" | "Jede Richtung wird aus den übrigen interpoliert…";
 
     // Every tile.
     const VIEW = "View" | "Ansicht";
@@ -166,10 +166,10 @@ texts! {
     const WORK_ZONE = "work zone" | "Arbeit";
     const FLOOR = "floor" | "Boden";
     const NOTHING_TRANSMITTED = "Nothing is transmitted." | "Nichts wird durchgelassen.";
-    fn of_transmitted_ceiling(all, share) = "Of {all} % transmitted, {share} goes to the ceiling." | "Von {all} % gehen {share} zur Decke.";
-    fn of_transmitted_eye(all, share) = "Of {all} % transmitted, {share} goes to the eye zone." | "Von {all} % gehen {share} auf Augenhöhe.";
-    fn of_transmitted_work(all, share) = "Of {all} % transmitted, {share} goes to the work zone." | "Von {all} % gehen {share} in den Arbeitsbereich.";
-    fn of_transmitted_floor(all, share) = "Of {all} % transmitted, {share} goes to the floor." | "Von {all} % gehen {share} zum Boden.";
+    fn of_transmitted_ceiling(all, share) = "Of {all} % transmitted, {share} goes to the ceiling." | "Durchgelassen {all} %, davon {share} zur Decke.";
+    fn of_transmitted_eye(all, share) = "Of {all} % transmitted, {share} goes to the eye zone." | "Durchgelassen {all} %, davon {share} auf Augenhöhe.";
+    fn of_transmitted_work(all, share) = "Of {all} % transmitted, {share} goes to the work zone." | "Durchgelassen {all} %, davon {share} in den Arbeitsbereich.";
+    fn of_transmitted_floor(all, share) = "Of {all} % transmitted, {share} goes to the floor." | "Durchgelassen {all} %, davon {share} zum Boden.";
     fn split_line(ceiling, eye, work, floor) = "ceiling {ceiling} · eye zone {eye} · work zone {work} · floor {floor} %" | "Decke {ceiling} · Augenhöhe {eye} · Arbeitsbereich {work} · Boden {floor} %";
     fn split_line_short(ceiling, eye, work, floor) = "ceiling {ceiling}, eye {eye}, work {work}, floor {floor} %" | "Decke {ceiling}, Augen {eye}, Arbeit {work}, Boden {floor} %";
     fn split_most(share, all, zone) = "{share} of {all} % to the {zone}" | "{share} von {all} %: {zone}";
@@ -213,10 +213,10 @@ texts! {
     fn scattered_flux(flux) = "scattered flux {flux} · " | "gestreuter Lichtstrom {flux} · ";
     const NOT_COMPUTED = "not computed" | "nicht berechnet";
     const COMPUTING = "computing…" | "wird berechnet…";
-    fn scattered_peak_state(state) = "scattered peak: {state}" | "gestreute Spitze: {state}";
+    fn scattered_peak_state(state) = "peak of scattered light: {state}" | "Spitze des Streulichts: {state}";
     fn peak_state(state) = "peak: {state}" | "Spitze: {state}";
     fn aperture_size(width, height) = "aperture {width} × {height} m" | "Öffnung {width} × {height} m";
-    fn scattered_peak(value, to) = "scattered peak {value} to {to}" | "gestreute Spitze {value} nach {to}";
+    fn scattered_peak(value, to) = "peak of scattered light {value} to {to}" | "Spitze des Streulichts {value} nach {to}";
     fn peak_to(value, to) = "peak {value} to {to}" | "Spitze {value} nach {to}";
     fn peak_alone(value) = "peak {value}" | "Spitze {value}";
     const NO_BEAM = "no direct sun transmitted" | "kein direktes Sonnenlicht durchgelassen";
@@ -339,7 +339,7 @@ texts! {
     const DWELL_TIP = "Sets the minimum time between a state change and the next opening, for today and the year" | "Stellt die kürzeste Zeit zwischen einem Stellungswechsel und dem nächsten Öffnen ein, für heute und das Jahr";
     const SUN_ABOVE = "Sun above" | "Sonne ab";
     const SUN_ABOVE_TIP = "Sets the illuminance above which direct sun on the façade counts" | "Stellt die Beleuchtungsstärke ein, ab der direkte Sonne auf der Fassade zählt";
-    const CLOSE_ABOVE = "Close above" | "Schließen ab";
+    const CLOSE_ABOVE = "Close above" | "Schließen über";
     const CLOSE_ABOVE_TIP = "Sets the façade illuminance above which the product closes in any case; 0: never" | "Stellt die Beleuchtungsstärke der Fassade ein, ab der das Produkt in jedem Fall schließt; 0: nie";
     const OWN_CURVE = "Curve of the product" | "Kurve des Produkts";
     const LOAD_CURVE = "Load a curve (.csv)…" | "Kurve laden (.csv)…";

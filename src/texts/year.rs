@@ -162,7 +162,7 @@ texts! {
     const WEATHER_DIRECT_HORIZONTAL = "The direct normal irradiances of the weather file are horizontal ones" | "Die direkt-normalen Bestrahlungsstärken der Wetterdatei sind horizontale";
     const WEATHER_NOT_CLOSED = "Global, direct and diffuse irradiances of the weather file contradict each other" | "Globale, direkte und diffuse Bestrahlungsstärken der Wetterdatei widersprechen sich";
     const WEATHER_WATT_HOURS = "The irradiances of the weather file seem to be Wh/m² of short intervals; they are read as W/m²" | "Die Bestrahlungsstärken der Wetterdatei sind anscheinend Wh/m² kurzer Intervalle; gelesen werden sie als W/m²";
-    const WEATHER_RECORDS = "The weather file states another number of records per hour than it has; its rows count" | "Die Wetterdatei gibt eine andere Zahl von Werten je Stunde an, als sie hat; es zählen ihre Zeilen";
+    const WEATHER_RECORDS = "The weather file states another number of records per hour than it contains; the rows it contains are used" | "Die Wetterdatei gibt eine andere Zahl von Werten je Stunde an, als sie enthält; verwendet werden die enthaltenen Zeilen";
     fn weather_elsewhere(name) = "The weather is that of {name}, not of the scene's place: its place and time zone are used" | "Das Wetter ist das von {name}, nicht vom Ort der Szene: sein Ort und seine Zeitzone gelten";
     const TAKE_PLACE = "Use the place of the weather" | "Ort des Wetters übernehmen";
     const TAKE_PLACE_TIP = "Sets latitude, longitude, time zone and elevation of the scene to those of the weather" | "Setzt Breite, Länge, Zeitzone und Höhe der Szene auf die des Wetters";

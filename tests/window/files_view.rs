@@ -288,7 +288,7 @@ fn a_file_that_exists_is_not_written_over_unasked() {
     settle(&mut harness);
     assert_eq!(std::fs::read_to_string(&path).unwrap(), "mine");
     assert!(harness.query_by_label("A file of this name already exists.").is_some());
-    harness.get_by_label("Other name").click();
+    harness.get_by_label("Change the name").click();
     settle(&mut harness);
     assert!(harness.query_by_label("Replace").is_none());
     let other = folder.path().join("other.toml");

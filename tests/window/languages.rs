@@ -65,7 +65,7 @@ const OPEN: [&str; 53] = [
     "Nov",
     "Oct",
     "Opening the catalogue…",
-    "Other name",
+    "Change the name",
     "Overwrite",
     "Replace",
     "Room",

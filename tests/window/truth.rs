@@ -105,7 +105,7 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
         // Said with its direction; the drawn plane is that of the peak.
         let told = value(&harness, "LID polar diagram");
         let (c, gamma) = (scattered.c.to_degrees().round(), scattered.gamma.to_degrees());
-        let wanted = format!("scattered peak {} to C {c:.0}°, γ {gamma:.0}°", si(scattered.intensity, "cd"));
+        let wanted = format!("peak of scattered light {} to C {c:.0}°, γ {gamma:.0}°", si(scattered.intensity, "cd"));
         assert!(told.starts_with(&wanted), "{told}, not {wanted}");
         if c % 180.0 != 0.0 {
             assert!(says(&harness, &format!("C{c:.0}–C{:.0}", (c + 180.0) % 360.0)) > 0, "{:?}", words(&harness));

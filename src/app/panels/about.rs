@@ -26,7 +26,8 @@ pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         ui.end_row();
         let name = ui.label(shell::STORE_LIMIT);
         let mut limit = app.state.settings.store_limit;
-        let field = ui.add(DragValue::new(&mut limit).range(LIMITS).speed(4.0).suffix(" MB"));
+        let field =
+            ui.add(DragValue::new(&mut limit).range(LIMITS).update_while_editing(false).speed(4.0).suffix(" MB"));
         if field.labelled_by(name.id).on_hover_text(shell::STORE_LIMIT_TIP).changed() {
             commands.push(Command::StoreLimit(limit));
         }

@@ -211,7 +211,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
             if ui.button(texts::REPLACE).on_hover_text(texts::REPLACE_TIP).clicked() {
                 commands.push(Command::Write(PathUse::Export, path.clone()));
             }
-            if ui.button(texts::OTHER_NAME).on_hover_text(texts::OTHER_NAME_TIP).clicked() {
+            if ui.button(texts::CHANGE_NAME).on_hover_text(texts::CHANGE_NAME_TIP).clicked() {
                 commands.push(Command::KeepFile);
                 field.request_focus();
             }

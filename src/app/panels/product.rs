@@ -81,7 +81,7 @@ fn states(ui: &mut Ui, editing: &Editing, commands: &mut Vec<Command>) {
         ui.weak("");
         ui.end_row();
         for (place, (state, words)) in editing.looked.product.states.iter().zip(&editing.states).enumerate() {
-            let key = if state.key.is_empty() { text::THE_ONLY_ONE.get() } else { state.key.as_str() };
+            let key = if state.key.is_empty() { text::SINGLE_STATE.get() } else { state.key.as_str() };
             ui.add(egui::Label::new(key).truncate());
             let mut typed = words.clone();
             for (field, what, width) in [(&mut typed.angle, text::ANGLE, 52.0), (&mut typed.name, text::NAME, 100.0)] {

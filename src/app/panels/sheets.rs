@@ -138,7 +138,7 @@ fn path(ui: &mut Ui, state: &State, what: PathUse, commands: &mut Vec<Command>) 
             if ui.button(shell::REPLACE).on_hover_text(shell::WRITE_OVER).clicked() {
                 commands.push(Command::Write(what, path.clone()));
             }
-            if ui.button(shell::OTHER_NAME).on_hover_text(shell::OTHER_NAME_TIP).clicked() {
+            if ui.button(shell::CHANGE_NAME).on_hover_text(shell::CHANGE_NAME_TIP).clicked() {
                 commands.push(Command::KeepFile);
                 field.request_focus();
             }

@@ -116,7 +116,7 @@ impl SunThrough {
         let cells = self.cells.iter();
         let cells = cells.flat_map(|light| [&light.diffuse, &light.sun].into_iter().chain(&light.uncertainties));
         let bands = self.bands.iter().map(|bands| &bands.light.q);
-        cells.chain(bands).map(|values| size_of_val(&values[..])).sum()
+        size_of_val(&self.beams[..]) + cells.chain(bands).map(|values| size_of_val(&values[..])).sum::<usize>()
     }
 
     /// Computes the beams behind a described system without its scattered light.

@@ -29,7 +29,6 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use glam::DVec3;
 use std::f64::consts::PI;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Resolution of the sky and of sunlit cells as sources of illuminance on surfaces: spacing of the sky directions
@@ -57,6 +56,9 @@ const OTHERS: f64 = 1e-2;
 /// that errors of neighbouring points cancel. Chosen: cost; held by the test `boxes_are_lit_as_at_single_moments`, to
 /// 1.6 % of the light in the sum over patches.
 const DIRECTIONS: [(usize, [usize; 2]); 2] = [(8_000, [8, 64]), (40_000, [64, 256])];
+/// Minimum number of columns of a matrix product; a single one would be summed in another order, and the luminances of a
+/// moment would depend on how many others are computed with it.
+const COLUMNS: usize = 2;
 /// Maximum number of ground reflectances for which the interreflection is cached: a year has twelve. Chosen: cost only,
 /// no effect on results.
 const GROUNDS: usize = 13;
@@ -67,7 +69,7 @@ const SKY: usize = usize::MAX;
 /// Obstructions (boxes, building) and ground with daylight coefficients, for any sky and sun behind the same skyline
 /// and any ground reflectance.
 pub struct Prepared {
-    /// Unique number of these prepared obstructions.
+    /// Number of these prepared obstructions, which no others have.
     number: u64,
     setting: Setting,
     turn: [f64; 2],
@@ -195,7 +197,7 @@ impl Prepared {
     /// Prepares obstructions and computes their daylight coefficients. `outside`: gives the shape of the skyline, and
     /// the ground reflectance for which the interreflection is computed in advance; `setting`: boxes, building and
     /// ground, in the world's axes; `turn`: cosine and sine of the angle from east to the room's x axis; `viewpoints`:
-    /// corners of the apertures in the world's axes \[m\].
+    /// corners of the apertures in the world's axes \[m\]; `number`: a number that no other obstructions have.
     ///
     /// # Errors
     /// Returns [`Cancelled`] if `progress` is cancelled.
@@ -204,6 +206,7 @@ impl Prepared {
         setting: Setting,
         turn: [f64; 2],
         viewpoints: Vec<DVec3>,
+        number: u64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let (sky, sun) = trial(outside, turn);
@@ -254,9 +257,8 @@ impl Prepared {
             }
         }
         let exchange = Exchange::new(all, exchanged);
-        static NUMBER: AtomicU64 = AtomicU64::new(0);
         let prepared = Self {
-            number: NUMBER.fetch_add(1, Ordering::Relaxed),
+            number,
             boxes: scenery.bodies[..scenery.bodies.len() - 1].to_vec(),
             stated: scenery.surfaces.iter().map(|surface| surface.stated).collect(),
             skyline: skyline.cloned(),
@@ -280,7 +282,7 @@ impl Prepared {
         Ok(prepared)
     }
 
-    /// Returns the unique number of these prepared obstructions, for caches.
+    /// Returns the number of these prepared obstructions, which no others have.
     pub const fn number(&self) -> u64 {
         self.number
     }
@@ -343,10 +345,12 @@ impl Prepared {
     /// the same ground reflectance. \[cd/m²\]
     fn exchanged(&self, moments: &[(&Outside, &Scenery<'_>)]) -> Vec<Vec<f32>> {
         let Some((_, scenery)) = moments.first() else { return Vec::new() };
-        let sent: Vec<f32> =
+        let mut sent: Vec<f32> =
             moments.iter().flat_map(|(outside, scenery)| self.lighting.luminances(outside, scenery)).collect();
-        let sent = MatRef::from_column_major_slice(&sent, self.lighting.len(), moments.len());
-        let mut light = Mat::zeros(self.source.len(), moments.len());
+        let columns = moments.len().max(COLUMNS);
+        sent.resize(columns * self.lighting.len(), 0.0);
+        let sent = MatRef::from_column_major_slice(&sent, self.lighting.len(), columns);
+        let mut light = Mat::zeros(self.source.len(), columns);
         matmul(light.as_mut(), Accum::Replace, self.solved(scenery).as_ref(), sent, 1.0, Par::Seq);
         (0..moments.len()).map(|moment| light.col_as_slice(moment).to_vec()).collect()
     }

@@ -21,10 +21,10 @@ use crate::compute::system::measure::Side;
 use crate::study::cache::Cache;
 use crate::study::error::StudyError;
 use crate::study::scene::Scene;
-use crate::study::session::Session;
 use crate::study::session::far::{self, Constants};
 use crate::study::session::sky_patches::{SkyPatches, illuminances};
 use crate::study::session::sky_year::{SkyYear, SunlitYear};
+use crate::study::session::{OfModel, Session};
 use crate::study::system::SystemModel;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
@@ -352,7 +352,7 @@ fn described_through<'a>(
     session: &Session,
     scene: &'a Scene,
     index: usize,
-) -> Option<(&'a SystemModel, Arc<(SystemModel, SkyThrough)>)> {
+) -> Option<(&'a SystemModel, Arc<OfModel<SkyThrough>>)> {
     let model =
         scene.apertures[index].system.model.as_ref().filter(|model| scene.beams && model.answers_for_the_sky())?;
     Some((model, session.sky_through(model)))

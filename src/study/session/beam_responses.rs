@@ -47,6 +47,11 @@ impl BeamResponses {
         size_of_val(&self.rows[..])
     }
 
+    /// Returns the number of values of one beam.
+    pub fn numbers(&self) -> usize {
+        3 * self.sensors + self.walls[self.sensors] - self.walls[0]
+    }
+
     /// Creates the responses to beams. `gather`: weights with which the sensors see the patches of the fine and the
     /// coarse mesh; `sensors`: responses of the sensors to the first illuminances of the patches.
     pub fn new(radiosity: &Radiosity, gather: &[[Reconstruction; 2]], sensors: &[Response]) -> Self {

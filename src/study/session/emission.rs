@@ -5,11 +5,15 @@ use super::Session;
 use crate::compute::btdf::{Btdf, CellMatrix, Dataset, Indicatrices, Scattered};
 use crate::compute::lid::peaks::{self, Peaks};
 use crate::compute::lid::{Emission, Facing, Interpolator, SkyThrough, SunThrough};
+use crate::compute::system::measure::OpticalModel;
 use crate::study::cache::bits;
 use crate::study::scene::{Scene, SceneAperture};
 use crate::study::scene_file::Interpolation;
 use crate::study::system::SystemModel;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
+
+/// Result for an optical model, with a reference that keeps its address, the key of the result, from being used again.
+pub(crate) type OfModel<T> = (Weak<dyn OpticalModel>, T);
 
 impl Session {
     /// Computes the light that leaves an aperture on its room side under the scene's outside, reduced by frame and
@@ -52,13 +56,13 @@ impl Session {
     }
 
     /// Returns the emergent light of a described system for each incident patch, computed or stored.
-    pub(crate) fn sky_through(&self, model: &SystemModel) -> Arc<(SystemModel, SkyThrough)> {
+    pub(crate) fn sky_through(&self, model: &SystemModel) -> Arc<OfModel<SkyThrough>> {
         let key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64];
-        self.skies.find(key, || (model.clone(), SkyThrough::new(model.0.as_ref())))
+        self.skies.find(key, || (Arc::downgrade(&model.0), SkyThrough::new(model.0.as_ref())))
     }
 
     /// Returns the light that a described system emits under the sun, computed or stored.
-    fn sun_through(&self, model: &SystemModel, facing: &Facing<'_>) -> Arc<(SystemModel, SunThrough)> {
+    fn sun_through(&self, model: &SystemModel, facing: &Facing<'_>) -> Arc<OfModel<SunThrough>> {
         let mut key = vec![Arc::as_ptr(&model.0).cast::<()>() as u64, facing.surface as u64];
         // Everything that decides how much of the disc is visible, and where.
         let edges = facing.sun_edges().map(|edge| edge.normal.extend(edge.offset).to_array());
@@ -67,8 +71,7 @@ impl Session {
             key.extend(bits(direction.vector().to_array()));
             key.extend(bits([sun.direct_normal]));
         }
-        // The result keeps the system alive, so that no other can have its address.
-        self.suns.find(key, || (model.clone(), SunThrough::new(model.0.as_ref(), facing)))
+        self.suns.find(key, || (Arc::downgrade(&model.0), SunThrough::new(model.0.as_ref(), facing)))
     }
 
     /// Computes the light that a system emits according to its data, under the whole outside.
@@ -123,14 +126,14 @@ impl Session {
         one: &SceneAperture,
         matrix: &CellMatrix,
         facing: &Facing<'_>,
-    ) -> Option<Arc<(Arc<Dataset>, Peaks)>> {
+    ) -> Option<Arc<(Weak<Dataset>, Peaks)>> {
         let sun = facing.sun_entering()?;
         let dataset = &one.system.dataset;
         let mut key = vec![Arc::as_ptr(dataset) as u64, u64::from(one.separated.is_some())];
         if matrix.incident().len() > peaks::MOST_CELLS {
             key.extend(matrix.incident().index(sun).map(|cell| cell as u64));
         }
-        Some(self.peaks.find(key, || (Arc::clone(dataset), Peaks::new(matrix, sun))))
+        Some(self.peaks.find(key, || (Arc::downgrade(dataset), Peaks::new(matrix, sun))))
     }
 
     /// Returns the interpolator between the incident directions of a dataset, created or stored.

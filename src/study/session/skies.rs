@@ -52,8 +52,9 @@ impl Session {
         let mut hasher = DefaultHasher::new();
         let far = (outside.skyline_altitude(), outside.surroundings());
         format!("{setting:?} {viewpoints:?} {:?} {far:?}", orientation.turn()).hash(&mut hasher);
-        let find = || Prepared::new(outside, setting, orientation.turn(), viewpoints, progress);
-        self.standing.get(vec![hasher.finish()], find).map(Some)
+        let number = hasher.finish();
+        let find = || Prepared::new(outside, setting, orientation.turn(), viewpoints, number, progress);
+        self.standing.get(vec![number], find).map(Some)
     }
 
     /// Returns weights of outside luminances at points of an aperture, by point and incident patch, computed by `find`

@@ -20,6 +20,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 const SAME: f64 = 3e-4;
 /// Maximum number of values that are stored: enough for 3,400 sun positions at 96 sensors.
 const MOST_NUMBERS: usize = 4_000_000;
+/// Approximate number of sun positions of a year.
+const SUNS: usize = 4500;
 /// Factors that mirror a direction at the planes along the aperture's axes.
 const IMAGES: [DVec3; 4] =
     [DVec3::ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(-1.0, -1.0, 1.0)];
@@ -68,9 +70,9 @@ impl UnitBeams {
         Self { responses, known: Mutex::default() }
     }
 
-    /// Returns the memory that responses and beams take once as many beams are stored as may be. \[bytes\]
+    /// Returns the memory that responses and beams take once the beams of a year are stored. \[bytes\]
     pub fn bytes(&self) -> usize {
-        self.responses.bytes() + MOST_NUMBERS * size_of::<f32>()
+        self.responses.bytes() + MOST_NUMBERS.min(SUNS * self.responses.numbers()) * size_of::<f32>()
     }
 
     /// Returns the responses of the sensors to beams of any direction.

@@ -101,7 +101,7 @@ pub fn show(ui: &mut Ui, scene: &mut SceneFile) {
         ui.push_id(index, |ui| {
             let mut moved = false;
             ui.horizontal(|ui| {
-                ui.label(texts::numbered_in(index + 1));
+                ui.label(texts::aperture_number(index + 1));
                 for surface in [SurfaceKey::Facade, SurfaceKey::Roof] {
                     if ui.selectable_label(aperture.surface == surface, word(surface).get()).clicked() {
                         moved = move_to(aperture, surface, &room);

@@ -37,7 +37,7 @@ fn boxes_are_lit_as_at_single_moments() {
         (sky.behind(Arc::new(Surroundings::dark(Vec::new(), Some(skyline.clone())))), sun)
     };
     let (first, _) = under(0.5, 180.0, 16, 0.2);
-    let prepared = Prepared::new(&first, setting.clone(), turn, eyes.clone(), &Silent).unwrap();
+    let prepared = Prepared::new(&first, setting.clone(), turn, eyes.clone(), 0, &Silent).unwrap();
     let eye = DVec3::new(2.0, 0.0, 1.8);
     let (frame, basis) = (Frame::facing(Dir::from_unit(DVec3::NEG_Y)), RingBasis::klems_full(AzimuthMap::FACADE));
     let rows = prepared.patches(eye, &frame, &basis);
@@ -66,6 +66,11 @@ fn boxes_are_lit_as_at_single_moments() {
         most = most.max(off / all);
         // What is seen from a point through single patches, against integrals between the edges of bodies and shadows.
         let luminances = prepared.luminances(&[(&outside, Some(&sun))]).concat();
+        // The same to the bit with other moments, however many.
+        for count in [2, 5, 40] {
+            let found = prepared.luminances(&vec![(&outside, Some(&sun)); count]);
+            assert!(found.iter().all(|found| *found == luminances));
+        }
         let of = |row: &Counts| row.iter().map(|(k, counts)| f64::from(counts * luminances[*k as usize])).sum();
         let by_patch: Vec<f64> = rows.iter().map(of).collect();
         let exact = incident_illuminances_within(&exact.seen_from(eye), &basis, &frame, 1e-4);
