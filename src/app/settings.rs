@@ -11,8 +11,7 @@ use std::path::PathBuf;
 /// A megabyte. \[bytes\]
 pub const MEGABYTE: usize = 1_000_000;
 
-/// Maximum memory of stored results at a first start: those of a room with a thousand sensors, or of a year. \[MB\]
-/// Chosen: cost only, no effect on results.
+/// Maximum memory of stored results at a first start. \[MB\] Chosen: cost only, no effect on results.
 const STORE_LIMIT: usize = 256;
 
 /// Settings of the window that are stored between starts of the program.

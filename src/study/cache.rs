@@ -51,10 +51,12 @@ impl Store {
     /// Sets the maximum memory of all results \[bytes\], and removes those beyond it.
     pub fn set_limit(&self, limit: usize) {
         let mut stored = self.lock();
-        stored.limit = limit;
-        let removed = stored.within_limit();
-        drop(stored);
-        free(removed);
+        if stored.limit != limit {
+            stored.limit = limit;
+            let removed = stored.within_limit();
+            drop(stored);
+            free(removed);
+        }
     }
 
     /// Removes all results.

@@ -141,7 +141,7 @@ impl Coefficients {
             || scene.room.walls > 0.0
             || scene.room.ceiling > 0.0
             || scene.apertures.iter().any(|a| a.reflectance > 0.0);
-        // All meshes of the room share it, for each aperture.
+        // Direct light by aperture, shared by all meshes of the room.
         let direct = Cache::new(&Arc::new(Store::new(usize::MAX)), |_| 0);
         if !(scene.interreflection && reflects) {
             let mut coefficients = Self::with(session, scene, prepared, None, &direct, progress)?;
