@@ -1,6 +1,6 @@
-//! Sessions compute the light of scenes, and store what does not change between them, within a limit of memory: factored
-//! rooms, and the responses of sensors and surfaces to each aperture. A new sky, time or product on the same basis then costs only
-//! matrix products.
+//! Sessions compute the light of scenes, and store what does not change between them, within a limit of memory:
+//! factored rooms, and the responses of sensors and surfaces to each aperture. A new sky, time or product on the same
+//! basis then costs only matrix products.
 
 pub(super) mod beam_responses;
 mod behind;
