@@ -117,7 +117,7 @@ texts! {
     const SKYLINE_EVEN = "Uniform skyline" | "Gleichförmige Horizontlinie";
     const SKYLINE_EVEN_TIP = "Uses one elevation all round; if off, the skyline is given by bearing" | "Verwendet rundum eine Höhe; sonst ist die Horizontlinie nach der Richtung gegeben";
     fn skyline_bearing(number) = "Bearing of point {number}" | "Himmelsrichtung von Punkt {number}";
-    fn skyline_altitude(number) = "Elevation {number}" | "Höhe {number}";
+    fn skyline_altitude(number) = "Elevation of point {number}" | "Höhenwinkel von Punkt {number}";
     fn remove_knot(number) = "Remove point {number} of the skyline" | "Punkt {number} der Horizontlinie entfernen";
     const ADD_KNOT = "Add a point" | "Punkt hinzufügen";
     const SUMMER_TIME = "Summer time" | "Sommerzeit";

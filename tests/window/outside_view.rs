@@ -287,7 +287,7 @@ fn frame_dirt_skyline_and_summer_time_are_typed() {
     harness.get_by_label("Uniform skyline").click();
     settle(&mut harness);
     assert!(scene(&harness).sky.obstruction.is_none());
-    enter(&mut harness, "Elevation 3", "25");
+    enter(&mut harness, "Elevation of point 3", "25");
     enter(&mut harness, "Bearing of point 3", "170");
     harness.get_by_label("Add a point").click();
     settle(&mut harness);
