@@ -3,6 +3,7 @@
 
 use super::error::AppError;
 use super::state::PathUse;
+use crate::formats::LuminaireFormat;
 use crate::texts::{Text, shell};
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -83,7 +84,7 @@ impl FileDialogs for NativeDialogs {
         }
         let dialog = match what {
             PathUse::ExportLid => dialog
-                .add_filter(shell::LUMINAIRE_FILES, &["ldt", "ies"])
+                .add_filter(shell::LUMINAIRE_FILES, &LuminaireFormat::ALL.map(|format| &format.extension()[1..]))
                 .add_filter(shell::TABLE_OR_DIAGRAM, &["csv", "svg", "png"]),
             PathUse::ExportTile(tile) => {
                 dialog.set_title(shell::export_titled(tile.name)).add_filter(shell::NUMBERS, &["csv"])

@@ -5,7 +5,7 @@ use super::moment;
 use super::safe_name::safe;
 use super::scene::Selection;
 use crate::catalogue::Product;
-use crate::formats::Format;
+use crate::formats::{Format, LuminaireFormat};
 use crate::report::{Size, TileKind, tender};
 use crate::study::control::year::CONTROLLED;
 use crate::study::rank::Look as Choosing;
@@ -123,8 +123,9 @@ pub struct Choices {
     pub comparison: bool,
     /// Template of the tender text of a product sheet.
     pub tender: String,
-    /// Whether luminaire files are written as IES LM-63 (.ies) instead of EULUMDAT (.ldt).
-    pub ies: bool,
+    /// Format of luminaire files.
+    #[serde(alias = "ies", with = "format_key")]
+    pub luminaire: LuminaireFormat,
     /// Whether the aperture is split into a grid of luminaires that light a room within 1 %, with an index of the
     /// files.
     pub tiles: bool,
@@ -153,13 +154,38 @@ impl Default for Choices {
             question: String::new(),
             comparison: true,
             tender: tender::TEMPLATE.to_owned(),
-            ies: false,
+            luminaire: LuminaireFormat::Eulumdat,
             tiles: false,
             without_beam: false,
             series: Series::default(),
             text: false,
             decimal_comma: false,
         }
+    }
+}
+
+/// Format of luminaire files in stored choices, as its extension.
+mod format_key {
+    use super::LuminaireFormat;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(format: &LuminaireFormat, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(format.extension())
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(from: D) -> Result<LuminaireFormat, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Stored {
+            Extension(String),
+            /// As version 0.1.0 stored it.
+            IsIes(bool),
+        }
+        let extension = match Stored::deserialize(from)? {
+            Stored::Extension(extension) => extension,
+            Stored::IsIes(ies) => if ies { ".ies" } else { ".ldt" }.to_owned(),
+        };
+        LuminaireFormat::from_name(&extension).ok_or_else(|| serde::de::Error::custom(extension))
     }
 }
 
@@ -173,8 +199,7 @@ impl Choices {
             What::Picture if self.vector => ".svg",
             What::Picture => ".png",
             What::Report => ".pdf",
-            What::Luminaire if self.ies => ".ies",
-            What::Luminaire => ".ldt",
+            What::Luminaire => self.luminaire.extension(),
             What::Series | What::Table => ".csv",
             What::Dataset if self.text => ".btdf.txt",
             What::Dataset => ".xml",
@@ -260,7 +285,6 @@ pub fn moments(
     let Some(now) = moment::of(scene) else { return Vec::new() };
     let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let stem = name.strip_suffix("_index").unwrap_or(&name).to_owned();
-    let ending = if choices.ies { "ies" } else { "ldt" };
     let states: Vec<String> = match product {
         Some(product) if choices.series.all_states => product.states.iter().map(|state| state.key.clone()).collect(),
         _ => vec![String::new()],
@@ -284,7 +308,12 @@ pub fn moments(
                 }
                 let of = if state.is_empty() { String::new() } else { format!("_{}", safe(state)) };
                 let when = time.strftime("%m-%dT%H%M");
-                list.push(Moment { name: format!("{stem}_{when}{of}.{ending}"), scene, time, state: state.clone() });
+                list.push(Moment {
+                    name: format!("{stem}_{when}{of}{}", choices.luminaire.extension()),
+                    scene,
+                    time,
+                    state: state.clone(),
+                });
             }
         }
     }
@@ -323,13 +352,24 @@ mod tests {
     }
 
     #[test]
+    fn stored_choices_are_read_those_of_earlier_versions_too() {
+        let choices = Choices { luminaire: LuminaireFormat::ALL[1], ..Choices::default() };
+        let stored = serde_json::to_string(&choices).unwrap();
+        for stored in [stored.as_str(), r#"{"ies": true}"#] {
+            assert_eq!(serde_json::from_str::<Choices>(stored).unwrap(), choices);
+        }
+        assert_eq!(serde_json::from_str::<Choices>(r#"{"ies": false}"#).unwrap(), Choices::default());
+    }
+
+    #[test]
     fn endings_follow_the_choices() {
         let mut choices = Choices::default();
         let mut seen = Vec::new();
         for what in What::ALL {
             choices.what = what;
             for (vector, text) in [(false, false), (true, true)] {
-                (choices.vector, choices.text, choices.ies) = (vector, text, text);
+                (choices.vector, choices.text) = (vector, text);
+                choices.luminaire = LuminaireFormat::ALL[usize::from(text)];
                 seen.push(choices.ending());
             }
         }

@@ -139,13 +139,7 @@ pub fn run(args: &LidArgs, library: &dyn SystemLibrary) -> Result<()> {
     for time in &dark {
         report!("note: {time} is skipped: the sun is below the horizon");
     }
-    let kind = match options.format {
-        LidFormat::Eulumdat => FileKind::Eulumdat,
-        LidFormat::Ies(_) => FileKind::Ies,
-        LidFormat::Csv => FileKind::Csv,
-        LidFormat::Png => FileKind::Png,
-        LidFormat::Svg => FileKind::Svg,
-    };
+    let kind = options.format.kind();
     args.tables.check([&**path], None, kind, true)?;
     if needs_index(&options, &members) {
         refuse_stream(&args.out)?;
@@ -286,7 +280,7 @@ fn luminaire_options(args: &LidArgs) -> Result<LuminaireOptions> {
     };
     let shown = args.out.display();
     let format = LidFormat::of(&args.stream.name(&args.out)?, edition).with_context(|| format!("--out {shown}"))?;
-    if !matches!(format, LidFormat::Eulumdat | LidFormat::Ies(_)) {
+    if !matches!(format, LidFormat::Luminaire(_)) {
         if args.tiles != Tiles::None {
             bail!("--tiles {}: {shown} is not a luminaire file (.ldt or .ies)", args.tiles);
         }

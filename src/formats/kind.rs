@@ -2,7 +2,7 @@
 //! by mistake.
 
 use super::encoding::any_text;
-use super::{Format, dataset_blob, eulumdat, luminaire_index, package, weather};
+use super::{Format, LuminaireFormat, dataset_blob, luminaire_index, package, weather};
 
 /// Kind of file that the program writes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,10 +19,8 @@ pub enum FileKind {
     Png,
     /// Report (PDF).
     Pdf,
-    /// EULUMDAT luminaire file.
-    Eulumdat,
-    /// IES luminaire file.
-    Ies,
+    /// Luminaire file.
+    Luminaire(LuminaireFormat),
     /// Scene (.toml).
     Scene,
     /// Dataset in one of the exchange formats.
@@ -46,11 +44,9 @@ impl FileKind {
             Self::Svg => "an SVG picture",
             Self::Png => "a PNG picture",
             Self::Pdf => "a PDF document",
-            Self::Eulumdat => "an EULUMDAT file",
-            Self::Ies => "an IES file",
+            Self::Luminaire(format) => format.words(),
             Self::Scene => "a scene",
-            Self::Dataset(Format::BsdfXml) => "BSDF XML",
-            Self::Dataset(Format::BtdfText) => "BTDF text",
+            Self::Dataset(format) => format.name(),
             Self::Compact => "a compact dataset (.cfsd)",
             Self::Package => "a package (.cfsp)",
         }
@@ -71,8 +67,7 @@ impl FileKind {
             // Other archives have other entries.
             Self::Package => head.starts_with(package::MAGIC) && (holds("manifest.json") || holds("datasets/")),
             Self::Dataset(format) => Format::sniff("", head) == Some(format),
-            Self::Ies => head.trim_ascii_start().starts_with(b"IES"),
-            Self::Eulumdat => eulumdat::read(head).is_ok(),
+            Self::Luminaire(format) => format.may_be(head),
             Self::Svg => text(head).is_some_and(|text| text.contains("<svg")),
             Self::Json => text(head).is_some_and(is_json),
             Self::Csv => text(head).is_some_and(|text| !is_json(text) && is_csv(text)),
@@ -91,11 +86,12 @@ pub fn extension_of(bytes: &[u8]) -> &'static str {
         (FileKind::Package, ".cfsp"),
         (FileKind::Dataset(Format::BsdfXml), ".xml"),
         (FileKind::Dataset(Format::BtdfText), ".btdf.txt"),
-        (FileKind::Ies, ".ies"),
-        (FileKind::Eulumdat, ".ldt"),
     ];
     if let Some((_, extension)) = of_kind.iter().find(|(kind, _)| kind.may_be(head)) {
         return extension;
+    }
+    if let Some(format) = LuminaireFormat::ALL.into_iter().find(|format| format.may_be(head)) {
+        return format.extension();
     }
     if package::looks_like_package(bytes) {
         return ".zip";
@@ -164,7 +160,7 @@ mod tests {
             (FileKind::Svg, b"<?xml version=\"1.0\"?>\n<svg xmlns=\"\"></svg>"),
             (FileKind::Png, b"\x89PNG\r\n\x1a\n"),
             (FileKind::Pdf, b"%PDF-1.7\n"),
-            (FileKind::Ies, b"IESNA:LM-63-2002\n"),
+            (FileKind::Luminaire(LuminaireFormat::ALL[1]), b"IESNA:LM-63-2002\n"),
             (FileKind::Dataset(Format::BsdfXml), b"<?xml version=\"1.0\"?>\n<WindowElement></WindowElement>"),
             (FileKind::Compact, b"CFSD...."),
         ];

@@ -1,7 +1,7 @@
 //! File formats: conversion between bytes and the types of `compute`. Readers take `&[u8]` and never open files.
 //!
 //! A new dataset format is a module here, a variant of [`Format`] and a line in [`Format::sniff`], [`read_dataset`] and
-//! [`write_dataset`].
+//! [`write_dataset`]; a new luminaire format is a module here and a variant of [`LuminaireFormat`].
 
 #![cfg_attr(not(test), warn(clippy::unwrap_used, clippy::disallowed_methods))]
 
@@ -31,6 +31,7 @@ pub mod lid_tables;
 mod location;
 pub mod luminaire;
 mod luminaire_check;
+mod luminaire_format;
 pub mod luminaire_index;
 mod luminaire_opening;
 mod luminaire_planes;
@@ -47,6 +48,7 @@ pub use btdf_text::CatalogueFields;
 pub use family::{is_one_function, merge_sides};
 pub use kind::{FileKind, HEAD, extension_of};
 pub use location::{FormatError, Location};
+pub use luminaire_format::LuminaireFormat;
 pub use written::Written;
 
 use crate::compute::btdf::Dataset;

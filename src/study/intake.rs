@@ -6,10 +6,9 @@ use crate::compute::btdf::Dataset;
 use crate::compute::estimate::Progress;
 use crate::compute::limits;
 use crate::formats::archive::{self, Contents, Entry};
-use crate::formats::luminaire::Luminaire;
 use crate::formats::system_toml::is_system_file;
 use crate::formats::weather::is_weather_file;
-use crate::formats::{Format, FormatError, eulumdat, ies};
+use crate::formats::{Format, FormatError, LuminaireFormat};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -109,7 +108,9 @@ impl Kind {
             Self::Package
         } else if ends(".zip") {
             Self::Archive
-        } else if [".ldt", ".ies", ".gldf", ".uld", ".rolf"].iter().any(|ending| ends(ending)) {
+        } else if LuminaireFormat::from_name(name).is_some()
+            || [".gldf", ".uld", ".rolf"].iter().any(|ending| ends(ending))
+        {
             Self::Luminaire
         } else if Format::from_name(name).is_some() || ends(".cfsd") {
             Self::Dataset
@@ -294,22 +295,15 @@ impl Listing {
 
 /// Describes the content of a luminaire file in one sentence, for the reason why it is not imported.
 fn luminaire(name: &str, bytes: &[u8]) -> String {
-    let lower = name.to_ascii_lowercase();
-    let (format, read): (_, Option<Result<Luminaire, FormatError>>) = if lower.ends_with(".ldt") {
-        ("EULUMDAT", Some(eulumdat::read(bytes)))
-    } else if lower.ends_with(".ies") {
-        ("IES LM-63", Some(ies::read(bytes)))
-    } else {
-        (lower.rsplit('.').next().unwrap_or_default(), None)
-    };
-    let who = match &read {
-        Some(Ok(luminaire)) => {
+    let (format, who) = match LuminaireFormat::from_name(name).map(|format| (format, format.read(bytes))) {
+        Some((_, Ok(luminaire))) => {
             let text = &luminaire.text;
             let words: Vec<&str> =
                 [text.name.trim(), text.manufacturer.trim()].into_iter().filter(|word| !word.is_empty()).collect();
-            if words.is_empty() { String::new() } else { format!(": {}", words.join(", ")) }
+            (luminaire.format, if words.is_empty() { String::new() } else { format!(": {}", words.join(", ")) })
         }
-        _ => String::new(),
+        Some((format, Err(_))) => (format.name().to_owned(), String::new()),
+        None => (name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase(), String::new()),
     };
     format!("a luminaire ({format}){who}; not a façade system")
 }

@@ -9,16 +9,14 @@ use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable, Step};
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::{Description, Luminaire};
-use crate::formats::{eulumdat, ies, lid_tables};
+use crate::formats::{FileKind, LuminaireFormat, lid_tables};
 use std::path::Path;
 
-/// Format of a luminaire file.
+/// Format of a file with a luminous intensity distribution.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LidFormat {
-    /// EULUMDAT, `.ldt`.
-    Eulumdat,
-    /// IES LM-63, `.ies`.
-    Ies(IesEdition),
+    /// Luminaire file, `.ldt` or `.ies`.
+    Luminaire(LuminaireFormat),
     /// Table of C, γ and luminous intensity \[cd\], `.csv`.
     Csv,
     /// Polar diagram of the intensities, `.png`.
@@ -41,14 +39,27 @@ pub enum LuminaireFileError {
 impl LidFormat {
     /// Returns the format for a file's extension. `edition`: edition of IES LM-63 for `.ies`.
     pub fn of(path: &Path, edition: IesEdition) -> Result<Self, LuminaireFileError> {
+        match LuminaireFormat::from_name(&path.to_string_lossy()) {
+            Some(LuminaireFormat::Ies(_)) => return Ok(Self::Luminaire(LuminaireFormat::Ies(edition))),
+            Some(format) => return Ok(Self::Luminaire(format)),
+            None => {}
+        }
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
-            "ldt" => Ok(Self::Eulumdat),
-            "ies" => Ok(Self::Ies(edition)),
             "csv" => Ok(Self::Csv),
             "png" => Ok(Self::Png),
             "svg" => Ok(Self::Svg),
             _ => Err(LuminaireFileError::Extension(extension)),
+        }
+    }
+
+    /// Returns the kind of the file.
+    pub const fn kind(self) -> FileKind {
+        match self {
+            Self::Luminaire(format) => FileKind::Luminaire(format),
+            Self::Csv => FileKind::Csv,
+            Self::Png => FileKind::Png,
+            Self::Svg => FileKind::Svg,
         }
     }
 }
@@ -90,8 +101,7 @@ pub fn encode(
 /// Encodes the table of a luminaire in one of the formats.
 pub(super) fn bytes_of(luminaire: &Luminaire, format: LidFormat) -> Result<Vec<u8>, LuminaireFileError> {
     Ok(match format {
-        LidFormat::Eulumdat => eulumdat::write(luminaire),
-        LidFormat::Ies(edition) => ies::write(luminaire, edition),
+        LidFormat::Luminaire(format) => format.write(luminaire),
         LidFormat::Csv => lid_tables::to_csv(luminaire).into_bytes(),
         LidFormat::Png => lid_tables::polar_diagram(luminaire).to_png()?,
         LidFormat::Svg => lid_tables::polar_diagram(luminaire).to_svg().into_bytes(),
@@ -255,7 +265,7 @@ normal = [0.0, 0.0, 1.0]
         let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beams: Vec::new() };
         let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
         // EULUMDAT has a line of 78 characters for it.
-        let ldt = encode(&lid, text.clone(), LidFormat::Eulumdat, None, None).unwrap();
+        let ldt = encode(&lid, text.clone(), LidFormat::Luminaire(LuminaireFormat::Eulumdat), None, None).unwrap();
         let ldt = String::from_utf8(ldt.bytes).unwrap();
         assert!(ldt.contains("\r\naperture 1; 48.8N 9.2E; sun 20.0/180.0; facade 170; CIE 12\r\n"), "{}", &ldt[..400]);
         assert!(ldt.contains("blind.xml, state 45"));

@@ -10,9 +10,9 @@ use crate::compute::lid::c_gamma::Aim;
 use crate::compute::lid::tiling::Tile;
 use crate::compute::lid::{Intensities, Lamp, Lamps};
 use crate::compute::room::aperture::Aperture;
+use crate::formats::LuminaireFormat;
 use crate::formats::luminaire::{Luminaire, Photometry};
 use crate::formats::luminaire_index::{self, Row};
-use crate::formats::{eulumdat, ies};
 use glam::DVec3;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -47,13 +47,8 @@ pub struct LuminaireAperture {
 /// # Errors
 /// Returns an error if the file cannot be read.
 pub fn read_file(path: &Path) -> Result<Option<Luminaire>, StudyError> {
-    let name = files::name_with_extension(path)?.to_ascii_lowercase();
-    let read = match name.rsplit_once('.') {
-        Some((_, "ldt")) => eulumdat::read,
-        Some((_, "ies")) => ies::read,
-        _ => return Ok(None),
-    };
-    read(&files::read(path)?).map(Some).map_err(|error| wrong(path, error.to_string()))
+    let Some(format) = LuminaireFormat::from_name(&files::name_with_extension(path)?) else { return Ok(None) };
+    format.read(&files::read(path)?).map(Some).map_err(|error| wrong(path, error.to_string()))
 }
 
 /// Reads the rows of an index of luminaire files.

@@ -198,8 +198,6 @@ texts! {
     const TITLE = "Title" | "Titel";
     const WITH_COMPARISON = "Comparison" | "Vergleich";
     const WITH_COMPARISON_TIP = "Adds the candidates of the comparison: figures, the compared tile side by side, differences with sign" | "Fügt die Kandidaten des Vergleichs hinzu: Kennwerte, die verglichene Kachel nebeneinander, Differenzen mit Vorzeichen";
-    const EULUMDAT = "EULUMDAT" | "EULUMDAT";
-    const LM_63 = "IES LM-63-2002" | "IES LM-63-2002";
     const XML_TIP = "Writes BSDF XML as of LBNL WINDOW" | "Schreibt BSDF-XML von LBNL WINDOW";
     const TEXT_TIP = "Writes BTDF text as of goniophotometers" | "Schreibt BTDF-Text wie von Goniophotometern";
     const FOR_PRINTERS = "Black and white lines" | "Schwarz-weiße Linien";

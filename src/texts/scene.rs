@@ -205,11 +205,6 @@ texts! {
     const CIE_14 = "14 cloudless, turbid, broad solar corona" | "14 wolkenlos, trüb, breite Sonnenkorona";
     const CIE_15 = "15 white-blue, turbid, broad solar corona" | "15 weißblau, trüb, breite Sonnenkorona";
     const CIE_16 = "16 traditional overcast" | "16 traditionell bedeckt";
-    const MODEL_CIE = "CIE general sky" | "Allgemeiner CIE-Himmel";
-    const MODEL_UNIFORM = "Uniform sky" | "Gleichförmiger Himmel";
-    const MODEL_PEREZ = "Perez all-weather" | "Perez-Himmel";
-    const MODEL_SCAN = "Measured sky (scan)" | "Gemessener Himmel (Scan)";
-    const MODEL_WEATHER = "Weather hour" | "Wetterstunde";
     fn weather_at(file) = "{file}, at the date and time above" | "{file}, zu Datum und Uhrzeit oben";
     const FOLLOW_TURBIDITY = "Automatic, turbidity" | "Automatisch, Trübung";
     const FOLLOW_TURBIDITY_TIP = "Computes clear skies from turbidity and elevation (Ineichen and Perez 2002), others from typical values (IES RP-21, 1984)" | "Berechnet klare Himmel aus Trübung und Höhe (Ineichen und Perez 2002), andere aus typischen Werten (IES RP-21, 1984)";

@@ -47,7 +47,7 @@ texts! {
     const WEATHER_SKY = "weather hour" | "Wetterstunde";
     const LIST_CIE = "CIE general sky" | "Allgemeiner CIE-Himmel";
     const LIST_UNIFORM = "Uniform sky" | "Gleichförmiger Himmel";
-    const LIST_PEREZ = "Perez all-weather sky" | "Perez-Himmel";
+    const LIST_PEREZ = "Perez all-weather" | "Perez-Himmel";
     const LIST_SCAN = "Measured sky (scan)" | "Gemessener Himmel (Scan)";
     const LIST_WEATHER = "Weather hour" | "Wetterstunde";
 

@@ -6,7 +6,7 @@ use cfs::compute::limits;
 use cfs::formats::control_curve::read_control_curve;
 use cfs::formats::figures_table::{self, FigureRow};
 use cfs::formats::scan::read_scan;
-use cfs::formats::{FileKind, archive, encoding, extension_of, gazetteer};
+use cfs::formats::{FileKind, LuminaireFormat, archive, encoding, extension_of, gazetteer};
 use std::fmt::Write as _;
 
 pub fn make_curve(choices: &mut Choices) -> Vec<u8> {
@@ -142,8 +142,9 @@ pub fn make_archive(choices: &mut Choices) -> Vec<u8> {
 pub fn read_archive(bytes: &[u8]) -> bool {
     extension_of(bytes);
     let bytes = &archive::with_distinct_names(bytes.to_vec());
-    for kind in [FileKind::Csv, FileKind::Json, FileKind::Comparison, FileKind::Svg, FileKind::Eulumdat, FileKind::Ies]
-    {
+    let luminaires = LuminaireFormat::ALL.map(FileKind::Luminaire);
+    let tables = [FileKind::Csv, FileKind::Json, FileKind::Comparison, FileKind::Svg];
+    for kind in tables.into_iter().chain(luminaires) {
         kind.may_be(bytes);
     }
     let files = match archive::contents(bytes) {

@@ -3,8 +3,8 @@
 use cfs::compute::estimate::Silent;
 use cfs::compute::lid::c_gamma::{Aim, CGammaTable, Step};
 use cfs::compute::lid::tiling::Tiling;
-use cfs::formats::ies::{self, IesEdition};
-use cfs::formats::{eulumdat, luminaire_index};
+use cfs::formats::ies::IesEdition;
+use cfs::formats::{LuminaireFormat, eulumdat, ies, luminaire_index};
 use cfs::study::luminaire_file::{LidFormat, describe};
 use cfs::study::luminaire_set::{LuminaireOptions, LuminaireSet, TileFile, Tiles, make};
 use cfs::study::luminaires::{self, words};
@@ -47,10 +47,11 @@ fn resolve(file: &SceneFile) -> Scene {
 }
 
 fn files(file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
-    files_as(LidFormat::Ies(IesEdition::Lm63_2002), file, tiles, without_beam)
+    files_as(LuminaireFormat::Ies(IesEdition::Lm63_2002), file, tiles, without_beam)
 }
 
-fn files_as(format: LidFormat, file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
+fn files_as(format: LuminaireFormat, file: &SceneFile, tiles: Tiles, without_beam: bool) -> LuminaireSet {
+    let format = LidFormat::Luminaire(format);
     let wish = LuminaireOptions { format, aim: None, step: None, tiles, without_beam };
     let text = describe("test.toml", file, std::path::Path::new(""), 0, "2026-03-21");
     let name = |tile: Option<usize>| format!("x_{}.ies", tile.map_or(0, |k| k + 1));
@@ -133,12 +134,11 @@ fn what_is_written_is_read_again() {
     let lid = Session::new().lid(&resolve(&own), 0, &Silent).expect("a distribution").lid;
     let table = CGammaTable::new(&lid, Aim::Mounted, Step::FINE);
     let peak = table.intensity.iter().copied().fold(0.0, f64::max);
-    let formats = [LidFormat::Eulumdat, LidFormat::Ies(IesEdition::Lm63_2002), LidFormat::Ies(IesEdition::Lm63_2019)];
-    for format in formats {
-        let read = if format == LidFormat::Eulumdat { eulumdat::read } else { ies::read };
+    let [ldt, ies_2002] = LuminaireFormat::ALL;
+    for format in [ldt, ies_2002, LuminaireFormat::Ies(IesEdition::Lm63_2019)] {
         let one = files_as(format, &own, Tiles::None, false);
         assert_eq!((one.files.len(), one.step), (1, Step::FINE));
-        let back = read(&one.files[0].bytes).expect("a luminaire");
+        let back = format.read(&one.files[0].bytes).expect("a luminaire");
         assert_eq!(back.intensity.len(), table.intensity.len());
         for (got, wanted) in back.intensity.iter().zip(&table.intensity) {
             assert!((got - wanted).abs() <= 1e-4 * peak, "{got} {wanted}");
@@ -146,7 +146,7 @@ fn what_is_written_is_read_again() {
     }
     // Tiles hold the same in both formats, and the index what they hold and where they are.
     let tiles = Tiles::Fixed(Tiling { columns: 3, rows: 2 });
-    let sets = [LidFormat::Eulumdat, LidFormat::Ies(IesEdition::Lm63_2002)].map(|of| files_as(of, &own, tiles, false));
+    let sets = [ldt, ies_2002].map(|of| files_as(of, &own, tiles, false));
     for (ldt, ies) in sets[0].files.iter().zip(&sets[1].files) {
         let (a, b) = (eulumdat::read(&ldt.bytes).expect("EULUMDAT"), ies::read(&ies.bytes).expect("LM-63"));
         let peak = a.peak();

@@ -7,6 +7,7 @@ use crate::app::state::PathUse;
 use crate::app::theme;
 use crate::app::typed_path::typed_path;
 use crate::app::window::App;
+use crate::formats::LuminaireFormat;
 use crate::report::size::Unit;
 use crate::report::tender::spoken;
 use crate::report::{Size, TileKind};
@@ -123,8 +124,9 @@ fn tiles(ui: &mut Ui, choices: &mut Choices) {
 
 fn luminaire(ui: &mut Ui, choices: &mut Choices) {
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut choices.ies, false, ".ldt").on_hover_text(texts::EULUMDAT);
-        ui.selectable_value(&mut choices.ies, true, ".ies").on_hover_text(texts::LM_63);
+        for format in LuminaireFormat::ALL {
+            ui.selectable_value(&mut choices.luminaire, format, format.extension()).on_hover_text(format.name());
+        }
     });
     ui.checkbox(&mut choices.tiles, texts::IN_TILES.get()).on_hover_text(texts::IN_TILES_TIP);
     ui.checkbox(&mut choices.without_beam, texts::WITHOUT_BEAM.get()).on_hover_text(texts::WITHOUT_BEAM_TIP);

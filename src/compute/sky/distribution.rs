@@ -67,4 +67,22 @@ impl Distribution {
             Model::Scan(scan) => scan.value(v),
         }
     }
+
+    /// Returns the direction of the sun about which the sky has its circumsolar brightening; `None` for skies without
+    /// one.
+    pub(super) fn sun_direction(&self) -> Option<Dir<World>> {
+        match &self.model {
+            Model::Gradated(sky, sun) if !sky.symmetric() => Some(Dir::from_unit(*sun)),
+            _ => None,
+        }
+    }
+
+    /// Whether the luminance is the same in all directions above the horizon.
+    pub(super) fn is_uniform(&self) -> bool {
+        match &self.model {
+            Model::Uniform => true,
+            Model::Gradated(sky, _) => sky.symmetric() && sky.a == 0.0,
+            Model::Overcast | Model::Scan(_) => false,
+        }
+    }
 }

@@ -267,10 +267,7 @@ impl Outside {
     /// Returns the direction of the sun about which the sky model has its circumsolar brightening; `None` for skies
     /// without one.
     pub fn sun_direction(&self) -> Option<Dir<World>> {
-        match &self.distribution.model {
-            Model::Gradated(sky, sun) if !sky.symmetric() => Some(Dir::from_unit(*sun)),
-            _ => None,
-        }
+        self.distribution.sun_direction()
     }
 
     /// Returns the altitude of the uniform skyline; 0 without one. \[rad\]
@@ -290,12 +287,7 @@ impl Outside {
 
     /// Whether the luminance is the same in all directions above the horizon, skyline included.
     pub fn is_uniform_above_horizon(&self) -> bool {
-        let uniform_sky = match &self.distribution.model {
-            Model::Uniform => true,
-            Model::Gradated(sky, _) => sky.symmetric() && sky.a == 0.0,
-            Model::Overcast | Model::Scan(_) => false,
-        } || self.scale == 0.0;
-        uniform_sky
+        (self.distribution.is_uniform() || self.scale == 0.0)
             && self.before.is_none()
             && (self.skyline_sine == 0.0 || self.skyline_luminance == self.sky_luminance(DVec3::Z))
     }

@@ -141,6 +141,33 @@ pub struct SkyKeys {
     pub skyline: Option<SkylineKeys>,
 }
 
+impl SkyKeys {
+    /// Changes the sky model: removes the keys of the former one, and gives those that the new one needs usual values.
+    pub fn choose(&mut self, model: SkyModelKey) {
+        self.model = model;
+        self.cie_type = (model == SkyModelKey::Cie).then_some(12);
+        let perez = model == SkyModelKey::Perez;
+        self.direct_horizontal_irradiance = perez.then_some(300.0);
+        self.diffuse_horizontal_irradiance = perez.then_some(120.0);
+        self.file = None;
+        self.weather = None;
+        self.light = LightKey::default();
+        self.sun_offset_minutes = OffsetKey::default();
+        match model {
+            SkyModelKey::Perez => {
+                self.diffuse_horizontal = None;
+                self.sun.direct_normal = None;
+            }
+            SkyModelKey::Scan => self.diffuse_horizontal = None,
+            // What follows the sun needs no figures.
+            _ if self.illuminance == IlluminanceKey::Stated => {
+                self.diffuse_horizontal.get_or_insert(10_000.0);
+            }
+            _ => {}
+        }
+    }
+}
+
 /// Default Linke turbidity of the atmosphere.
 pub const DEFAULT_TURBIDITY: f64 = 3.0;
 

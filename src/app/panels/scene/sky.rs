@@ -7,7 +7,7 @@ use crate::app::scene::follow;
 use crate::app::theme;
 use crate::app::typed_path::typed_path;
 use crate::compute::sky::availability::Cover;
-use crate::study::scene_file::{IlluminanceKey, LightKey, OffsetKey, SceneFile, SkyKeys, SkyModelKey};
+use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
@@ -39,17 +39,6 @@ const fn words(by: IlluminanceKey) -> (Text, Text) {
         IlluminanceKey::ClearSky => (texts::FOLLOW_TURBIDITY, texts::FOLLOW_TURBIDITY_TIP),
         IlluminanceKey::Rp21 => (texts::FOLLOW_RP21, texts::FOLLOW_RP21_TIP),
         IlluminanceKey::Stated => (texts::TYPED, texts::TYPED_TIP),
-    }
-}
-
-/// Returns the name of a sky model in the list.
-const fn model_word(model: SkyModelKey) -> Text {
-    match model {
-        SkyModelKey::Cie => texts::MODEL_CIE,
-        SkyModelKey::Uniform => texts::MODEL_UNIFORM,
-        SkyModelKey::Perez => texts::MODEL_PEREZ,
-        SkyModelKey::Scan => texts::MODEL_SCAN,
-        SkyModelKey::Weather => texts::MODEL_WEATHER,
     }
 }
 
@@ -146,12 +135,11 @@ fn origin(light: &Illuminances) -> String {
 
 /// Draws the choice of the sky model, and the fields of its parameters.
 fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
-    let shown = model_word(sky.model);
-    let combo = ComboBox::from_id_salt("model").selected_text(shown).width(width).show_ui(ui, |ui| {
+    let combo = ComboBox::from_id_salt("model").selected_text(sky.model.words()[0]).width(width).show_ui(ui, |ui| {
         for model in SkyModelKey::ALL {
             // Choosing the model that is there already must not reset its numbers.
-            if ui.selectable_label(sky.model == model, model_word(model).get()).clicked() && sky.model != model {
-                choose_model(sky, model);
+            if ui.selectable_label(sky.model == model, model.words()[0]).clicked() && sky.model != model {
+                sky.choose(model);
             }
         }
     });
@@ -189,34 +177,9 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
                 sky.file = Some(typed_path(&path));
             }
         }
-        SkyModelKey::Uniform => {}
         SkyModelKey::Weather => {
             let file = sky.weather.as_ref().map_or_else(String::new, |file| file.display().to_string());
             ui.label(texts::weather_at(file));
-        }
-    }
-}
-
-/// Changes the luminance model of a sky, and removes the keys that only the former model uses.
-fn choose_model(sky: &mut SkyKeys, model: SkyModelKey) {
-    sky.model = model;
-    sky.cie_type = (model == SkyModelKey::Cie).then_some(12);
-    let perez = model == SkyModelKey::Perez;
-    sky.direct_horizontal_irradiance = perez.then_some(300.0);
-    sky.diffuse_horizontal_irradiance = perez.then_some(120.0);
-    sky.file = None;
-    sky.weather = None;
-    sky.light = LightKey::default();
-    sky.sun_offset_minutes = OffsetKey::default();
-    match model {
-        SkyModelKey::Perez => {
-            sky.diffuse_horizontal = None;
-            sky.sun.direct_normal = None;
-        }
-        SkyModelKey::Scan => sky.diffuse_horizontal = None,
-        // What follows the sun needs no figures.
-        _ if sky.illuminance == IlluminanceKey::Stated => {
-            sky.diffuse_horizontal.get_or_insert(10_000.0);
         }
         _ => {}
     }
