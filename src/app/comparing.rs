@@ -3,7 +3,7 @@
 
 use super::command::Command;
 use super::compare::{Act, Look, Part};
-use super::compare_columns::Column;
+use super::compare_columns::{Column, Columns};
 use super::engine::Question;
 use super::error::AppError;
 use super::first_choice::first_choice;
@@ -285,11 +285,25 @@ impl App {
         compare(FIGURES, &facts.iter().collect::<Vec<_>>())
     }
 
+    /// Lists products that are optically similar to another one.
+    pub(super) fn find_like(&mut self, key: Option<String>) {
+        let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
+        let Some(key) = key else {
+            self.toasts.info(texts::NO_PRODUCT_CHOSEN);
+            return;
+        };
+        self.state.settings.catalogue_open = true;
+        self.state.query.like = Some(key);
+        self.search();
+    }
+}
+
+impl Columns {
     /// Redirects commands from the tiles of a candidate to the scene, if they change something that the candidate takes
-    /// from the scene. `place`: position of the candidate; `from`: index of the first of these commands in the list.
-    pub(super) fn retarget(&self, place: usize, from: usize, commands: &mut Vec<Command>) {
-        let Some(column) = self.compare.list.get(place) else { return };
-        let document = &self.state.document;
+    /// from the scene. `place`: position of the candidate; `document`: that of the
+    /// window; `from`: index of the first of these commands in the list.
+    pub(super) fn retarget(&self, place: usize, document: &Document, from: usize, commands: &mut Vec<Command>) {
+        let Some(column) = self.list.get(place) else { return };
         let own = commands.split_off(from);
         commands.extend(own.into_iter().filter_map(|command| match command {
             Command::Scene(changed) => {
@@ -304,18 +318,6 @@ impl App {
             | Command::Maximise(_) => Some(command),
             _ => None,
         }));
-    }
-
-    /// Lists products that are optically similar to another one.
-    pub(super) fn find_like(&mut self, key: Option<String>) {
-        let key = key.or_else(|| Some(self.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
-        let Some(key) = key else {
-            self.toasts.info(texts::NO_PRODUCT_CHOSEN);
-            return;
-        };
-        self.state.settings.catalogue_open = true;
-        self.state.query.like = Some(key);
-        self.search();
     }
 }
 

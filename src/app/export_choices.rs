@@ -178,7 +178,7 @@ mod format_key {
         #[serde(untagged)]
         enum Stored {
             Extension(String),
-            /// As version 0.1.0 stored it.
+            /// Whether it is IES LM-63, stored by earlier versions.
             IsIes(bool),
         }
         let extension = match Stored::deserialize(from)? {

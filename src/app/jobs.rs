@@ -261,6 +261,11 @@ impl<M: Send + 'static> Jobs<M> {
         self.running.get(&lane)?.state.fraction()
     }
 
+    /// Returns the finished share of the current stage of a lane's job, 0 before its first report; `None` without a job.
+    pub fn progress(&self, lane: Lane) -> Option<f32> {
+        self.running.get(&lane).map(|job| job.state.fraction().unwrap_or(0.0))
+    }
+
     /// Returns all running jobs.
     pub fn views(&self) -> Vec<JobView> {
         self.running.iter().map(|(&lane, job)| JobView { lane, state: job.state.clone() }).collect()

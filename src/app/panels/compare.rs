@@ -124,9 +124,9 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     ui.scope_builder(builder, |ui| {
         ui.horizontal_wrapped(|ui| choices(ui, app, commands));
         match app.state.compare.look {
-            Look::Beside => beside::show(ui, app, commands),
-            Look::Difference => difference::show(ui, app),
-            Look::Curves => curves::show(ui, app),
+            Look::Beside => beside::show(ui, &app.state, &mut app.compare, commands),
+            Look::Difference => difference::show(ui, &app.state, &mut app.compare),
+            Look::Curves => curves::show(ui, &app.state, &mut app.compare),
             Look::Figures => figures::show(ui, app, commands),
         }
     });

@@ -19,7 +19,7 @@ use egui::{Button, ComboBox, DragValue, Label, RichText, ScrollArea, TextEdit, T
 const ROWS: usize = 5;
 
 /// Draws the side panel of an export.
-pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let before = app.state.settings.export.clone();
     let mut choices = before.clone();
     let name = ui.label(texts::WHAT);

@@ -7,10 +7,10 @@ use crate::app::facing::sun_incident;
 use crate::app::goniophotometer::{Bench, Emergence, Incidence, Run};
 use crate::app::jobs::Lane;
 use crate::app::offer;
+use crate::app::state::State;
 use crate::app::theme;
 use crate::app::typing::read_number;
 use crate::app::views::section;
-use crate::app::window::App;
 use crate::study::control::slat_angle;
 use crate::texts::{decimal, fixed, goniophotometer as texts};
 use egui::{Button, ComboBox, DragValue, Id, Label, ProgressBar, ScrollArea, Slider, TextEdit, TextStyle, Ui, vec2};
@@ -20,20 +20,25 @@ const LEAST_HEIGHT: f32 = 220.0;
 /// Height of the parts of the panel above and below text editor and drawing. \[points\]
 const REST: f32 = 250.0;
 
-/// Draws the side panel of the virtual goniophotometer.
-pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+/// Draws the side panel of the virtual goniophotometer. `running`: share of the measurement that is done; `None` if it is
+/// not running.
+pub(super) fn show(
+    ui: &mut Ui,
+    state: &State,
+    view: &mut section::State,
+    running: Option<f32>,
+    commands: &mut Vec<Command>,
+) {
+    let bench = &state.goniophotometer;
     examples(ui, commands);
     let height = (ui.ctx().content_rect().height() - REST - 150.0).max(LEAST_HEIGHT);
     ui.columns(2, |columns| {
-        editor(&mut columns[0], &app.state.goniophotometer, height, commands);
-        drawing(&mut columns[1], app, height, commands);
+        editor(&mut columns[0], bench, height, commands);
+        drawing(&mut columns[1], state, view, height, commands);
     });
     ui.separator();
-    let running = app.jobs.views().iter().find(|job| job.lane == Lane::Goniophotometer).map(|job| job.state.clone());
-    let fraction = running.map(|state| state.fraction().unwrap_or(0.0));
-    let bench = &app.state.goniophotometer;
-    setup(ui, bench, fraction.is_some(), commands);
-    measure(ui, bench, fraction, commands);
+    setup(ui, bench, running.is_some(), commands);
+    measure(ui, bench, running, commands);
     if let Some(error) = &bench.failure {
         ui.add(Label::new(egui::RichText::new(error).color(theme::palette(ui).error)).wrap());
     }
@@ -99,13 +104,13 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
 }
 
 /// Draws the section through the described system, of a height \[points\], and the choice of the state drawn.
-fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>) {
-    let bench = &app.state.goniophotometer;
+fn drawing(ui: &mut Ui, state: &State, view: &mut section::State, height: f32, commands: &mut Vec<Command>) {
+    let bench = &state.goniophotometer;
     let system = bench.valid().map(|described| &described.file.system);
     let states = bench.states();
     let label =
         ui.label(if system.is_some_and(|system| system.upright) { texts::SECTION_ABOVE } else { texts::SECTION });
-    let sun = sun_incident(&app.state.document.scene, &app.state.base());
+    let sun = sun_incident(&state.document.scene, &state.base());
     let upright = system.is_some_and(|system| system.upright);
     let input = section::Input {
         system,
@@ -114,7 +119,7 @@ fn drawing(ui: &mut Ui, app: &mut App, height: f32, commands: &mut Vec<Command>)
         sun: sun.map(|sun| slat_angle(sun.0, upright)),
     };
     let size = vec2(ui.available_width(), height);
-    section::show(ui, &input, size, &mut app.section_view);
+    section::show(ui, &input, size, view);
     if let Some(state) = states.get(bench.drawn).filter(|_| states.len() > 1) {
         ui.horizontal(|ui| {
             let mut drawn = bench.drawn;

@@ -6,7 +6,7 @@ use super::{about, import, messages, product, sets};
 use crate::app::command::Command;
 use crate::app::jobs::Lane;
 use crate::app::offer::{key_words, listed};
-use crate::app::state::{CatalogueState, PathUse, Sheet, State};
+use crate::app::state::{CatalogueState, PathUse, Results, Sheet, State};
 use crate::app::theme;
 use crate::app::typed_path::typed_path;
 use crate::app::views::accuracy;
@@ -63,8 +63,14 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         },
         Sheet::Keys => keys(ui),
         Sheet::About => about::show(ui, app, commands),
-        Sheet::Accuracy => ladder(ui, app, commands),
-        Sheet::Goniophotometer => super::goniophotometer::show(ui, app, commands),
+        Sheet::Accuracy => {
+            let running = app.jobs.progress(Lane::Accuracy);
+            ladder(ui, &app.results, &mut app.accuracy_view, running, commands);
+        }
+        Sheet::Goniophotometer => {
+            let running = app.jobs.progress(Lane::Goniophotometer);
+            super::goniophotometer::show(ui, &app.state, &mut app.section_view, running, commands);
+        }
         Sheet::Product => product::edit(ui, &app.state, commands),
         Sheet::Deleted => product::deleted(ui, &app.state, commands),
         Sheet::Collections => sets::collections(ui, &app.state, commands),
@@ -75,19 +81,25 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
     });
 }
 
-/// Draws the plot of error against computing time, and passes its commands on.
-fn ladder(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
-    let running = app.jobs.views().iter().find(|job| job.lane == Lane::Accuracy).map(|job| job.state.clone());
-    let shown = &app.results.accuracy;
+/// Draws the plot of error against computing time, and passes its commands on. `running`: share of the computation that
+/// is done; `None` if it is not running.
+fn ladder(
+    ui: &mut Ui,
+    results: &Results,
+    view: &mut accuracy::State,
+    running: Option<f32>,
+    commands: &mut Vec<Command>,
+) {
+    let shown = &results.accuracy;
     let input = accuracy::Input {
         accuracy: shown.value.as_deref(),
-        revision: app.results.accuracy.revision,
+        revision: shown.revision,
         stale: shown.stale,
         error: shown.error.as_deref(),
-        running: running.map(|state| state.fraction().unwrap_or(0.0)),
-        outside: app.results.room.value.as_ref().map_or(&[], |room| &room.outside),
+        running,
+        outside: results.room.value.as_ref().map_or(&[], |room| &room.outside),
     };
-    for action in accuracy::show(ui, &input, &mut app.accuracy_view) {
+    for action in accuracy::show(ui, &input, view) {
         commands.push(match action {
             accuracy::Action::Run => Command::MeasureAccuracy,
             accuracy::Action::Cancel => Command::Cancel(Lane::Accuracy),

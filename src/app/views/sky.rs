@@ -392,11 +392,13 @@ fn mix(a: Color32, b: Color32, t: f32) -> Color32 {
 fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter();
     let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
+    // The labels stand in the half without the sun, which would cover them.
+    let side = if input.sun.is_some_and(|sun| disk_point(sun)[0] > 0.0) { -1.0 } else { 1.0 };
     for deg in [30.0_f32, 60.0] {
         painter.circle_stroke(disk.centre, disk.radius * (1.0 - deg / 90.0), thin);
         if disk.radius > 60.0 {
             let r = disk.radius * (1.0 - deg / 90.0) * std::f32::consts::FRAC_1_SQRT_2;
-            on_halo(painter, disk.centre + vec2(r, r), &format!("{deg:.0}°"), palette);
+            on_halo(painter, disk.centre + vec2(side * r, r), &format!("{deg:.0}°"), palette);
         }
     }
     if input.skyline > 0.0 {

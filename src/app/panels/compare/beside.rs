@@ -8,10 +8,9 @@ use crate::app::jobs::Lane;
 use crate::app::paint;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
-use crate::app::state::Tile;
+use crate::app::state::{State, Tile};
 use crate::app::theme;
 use crate::app::tiles::TileInput;
-use crate::app::window::App;
 use crate::drawing::ticks::{fine_ceil, si, tick};
 use crate::report::TileKind;
 use crate::study::comparison::scales;
@@ -26,25 +25,24 @@ const WIDE: f32 = 560.0;
 const LEAST: f64 = 1e-4;
 
 /// Draws the tile of each candidate, and their common scale.
-pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
-    let Some(tile) = tile(&app.state) else { return };
-    let kind = kind(&app.state);
-    let key = app.compare.key(tile.title);
-    let Columns { list, scale: known, .. } = &mut app.compare;
+pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns, commands: &mut Vec<Command>) {
+    let Some(tile) = tile(state) else { return };
+    let kind = kind(state);
+    let key = columns.key(tile.title);
+    let Columns { list, scale: known, .. } = columns;
     let scale = *known.get(key, || scale(list, kind));
-    let log =
-        list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| app.state.compare.log.unwrap_or(*own));
-    let factor = kind == Some(TileKind::Room) && app.state.settings.room.daylight_factor;
+    let log = list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| state.compare.log.unwrap_or(*own));
+    let factor = kind == Some(TileKind::Room) && state.settings.room.daylight_factor;
     if let Some(range) = scale.filter(|_| !factor) {
         legend(ui, kind, range, log, commands);
     }
     let held = ui.input(|input| input.pointer.any_down());
-    let stopped = app.compare.stopped;
-    let names = app.compare.names();
+    let stopped = columns.stopped;
+    let names = columns.names();
     let rects = places(ui.available_rect_before_wrap(), names.len());
     for (place, (rect, name)) in rects.into_iter().zip(&names).enumerate() {
         let from = commands.len();
-        let column = &mut app.compare.list[place];
+        let column = &mut columns.list[place];
         let palette = theme::palette(ui);
         ui.painter().rect(rect, 6, palette.surface, Stroke::new(1.0, palette.line), StrokeKind::Inside);
         let (head, body) = rect.shrink(3.0).split_top_bottom_at_y(rect.top() + NAME);
@@ -56,7 +54,7 @@ pub(super) fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         let builder = UiBuilder::new().max_rect(body).id_salt(("candidate", column.id));
         ui.scope_builder(builder, |ui| one(ui, column, tile, (scale, held, stopped), commands));
         let chosen = column.bench.log(tile).copied();
-        app.retarget(place, from, commands);
+        columns.retarget(place, &state.document, from, commands);
         // What is chosen in one holds for all.
         if let Some(chosen) = chosen.filter(|chosen| log.is_some_and(|log| log != *chosen)) {
             commands.push(Command::Compare(Act::Log(chosen)));

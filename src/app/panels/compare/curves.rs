@@ -6,7 +6,7 @@ use crate::app::control::rule_curve;
 use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;
-use crate::app::window::App;
+use crate::app::state::State;
 use crate::compute::estimate::Estimate;
 use crate::drawing::plot::Plot;
 use crate::report::TileKind;
@@ -16,19 +16,18 @@ use crate::texts::language;
 use egui::Ui;
 
 /// Draws the plots of the compared tile with a curve for each candidate.
-pub(super) fn show(ui: &mut Ui, app: &mut App) {
-    let (tile, kind) = (app.state.compare.tile(), kind(&app.state));
+pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns) {
+    let (tile, kind) = (state.compare.tile(), kind(state));
     let whole = ui.available_rect_before_wrap();
     let wide = whole.width() > whole.height();
     // Two plots side by side leave half of the width to the names.
     let room = if wide && kind == Some(TileKind::Lid) { 0.5 * whole.width() } else { whole.width() };
     let most = ((room - 70.0) / 8.0).max(8.0) as usize;
-    let names: Vec<String> = app.compare.names().iter().map(|name| short(name, most)).collect();
+    let names: Vec<String> = columns.names().iter().map(|name| short(name, most)).collect();
     // Rules are in the names of the scene's keys: with them the curves of control change; the axes with the language.
-    let rules = app.compare.list.iter().map(|column| format!("{:?}", column.state.control_keys()));
-    let key =
-        (app.compare.key(tile), 0, names.iter().cloned().chain(rules).chain([format!("{:?}", language())]).collect());
-    let Columns { list, plots, .. } = &mut app.compare;
+    let rules = columns.list.iter().map(|column| format!("{:?}", column.state.control_keys()));
+    let key = (columns.key(tile), 0, names.iter().cloned().chain(rules).chain([format!("{:?}", language())]).collect());
+    let Columns { list, plots, .. } = columns;
     let plots = plots.get(key, || make(kind, list, &names));
     if plots.is_empty() {
         let words = list.iter().find_map(Column::error).map_or_else(

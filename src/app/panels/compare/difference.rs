@@ -4,9 +4,9 @@ use super::places::{kind, missing, places, short};
 use crate::app::compare_columns::{Column, Columns};
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;
+use crate::app::state::State;
 use crate::app::theme;
 use crate::app::views::difference::{self, Picture};
-use crate::app::window::App;
 use crate::compute::estimate::Estimate;
 use crate::report::TileKind;
 use crate::study::comparison::difference::{of_q, of_rooms, of_tau};
@@ -14,12 +14,11 @@ use crate::texts::compare as texts;
 use egui::{Stroke, StrokeKind, Ui, UiBuilder};
 
 /// Draws the picture of the difference for each candidate, and their common scale.
-pub(super) fn show(ui: &mut Ui, app: &mut App) {
-    let tile = app.state.compare.tile();
-    let names = app.compare.names();
-    let base = app.state.compare.base.min(names.len().saturating_sub(1));
-    let drawn =
-        kind(&app.state).filter(|kind| [TileKind::Btdf, TileKind::Transmittance, TileKind::Room].contains(kind));
+pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns) {
+    let tile = state.compare.tile();
+    let names = columns.names();
+    let base = state.compare.base.min(names.len().saturating_sub(1));
+    let drawn = kind(state).filter(|kind| [TileKind::Btdf, TileKind::Transmittance, TileKind::Room].contains(kind));
     let Some(kind) = drawn else {
         ui.centered_and_justified(|ui| ui.label(texts::DIFFERENCES_OF));
         return;
@@ -28,9 +27,9 @@ pub(super) fn show(ui: &mut Ui, app: &mut App) {
         ui.centered_and_justified(|ui| ui.label(texts::TAKES_TWO));
         return;
     }
-    let key = (app.compare.key(tile), base, Vec::new());
-    let stopped = app.compare.stopped;
-    let Columns { list, differences, .. } = &mut app.compare;
+    let key = (columns.key(tile), base, Vec::new());
+    let stopped = columns.stopped;
+    let Columns { list, differences, .. } = columns;
     let pictures = differences.get(key, || list.iter().map(|one| picture(kind, one, &list[base])).collect());
     let reach = pictures.iter().flatten().map(Picture::reach).fold(0.0, f64::max);
     let scale = difference::scale(reach);
