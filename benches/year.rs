@@ -68,12 +68,12 @@ fn errors() {
             let scene = Scene::resolve(&moment, base, &*LIBRARY).expect("the moment can be resolved");
             let room = SESSION.room(&scene, &Silent).expect("a room");
             let places = year.light.places;
-            let mean = year.light.values[row * places..][..places].iter().sum::<f64>() / places as f64;
+            let mean = year.light.values.row(row).iter().sum::<f64>() / places as f64;
             for (s, sensor) in room.sensors.iter().enumerate() {
                 let scale = sensor.total().value.max(0.05 * mean).max(1e-9);
-                let off = (year.light.values[row * places + s] - sensor.total().value) / scale;
+                let off = (year.light.values.row(row)[s] - sensor.total().value) / scale;
                 worst = worst.max(off.abs());
-                stated = stated.max(year.light.errors[row * places + s] / scale);
+                stated = stated.max(year.light.errors.row(row)[s] / scale);
                 squares += off * off;
                 count += 1.0;
             }

@@ -199,7 +199,7 @@ fn csv(year: &Year) -> String {
     for one in &year.moving {
         let _ = write!(text, ",state_{}", one.aperture);
     }
-    let sun = year.light.sun.as_deref();
+    let sun = year.light.sun.as_ref();
     for (desk, eye) in
         [Some(("E", "Ev")), Some(("E_error", "Ev_error")), sun.map(|_| ("S", "Sv"))].into_iter().flatten()
     {
@@ -235,12 +235,8 @@ fn csv(year: &Year) -> String {
         for (one, &state) in year.moving.iter().zip(&year.states[k]) {
             let _ = write!(text, ",{}", if hour.is_lit() { csv_cell(&one.device.keys[state]) } else { String::new() });
         }
-        let own = row * places..(row + 1) * places;
-        for value in [Some(&*year.light.values), Some(&*year.light.errors), sun]
-            .into_iter()
-            .flatten()
-            .flat_map(|all| &all[own.clone()])
-        {
+        let tables = [Some(&year.light.values), Some(&year.light.errors), sun];
+        for value in tables.into_iter().flatten().flat_map(|table| table.row(row)) {
             text.push(',');
             text.push_str(&number(*value));
         }
@@ -255,7 +251,7 @@ fn csv(year: &Year) -> String {
             }
         }
         if let Some(lamps) = lamps {
-            let watts = lamps.watts(step.occupied, &year.light.values[own.start..own.start + sensors]);
+            let watts = lamps.watts(step.occupied, &year.light.values.row(row)[..sensors]);
             let _ = write!(text, ",{}", number(watts));
         }
         if let Some(solar) = &year.solar {

@@ -7,7 +7,7 @@
 //! then the first one.
 
 use super::autonomy::Autonomy;
-use super::hours::{Light, Step};
+use super::hours::{Light, Step, StepTable};
 use crate::compute::estimate::Estimate;
 
 /// Illuminance by direct sun from which an analysis point counts as sunlit. \[lx\] Source: IES LM-83-12, § 2.2.6.
@@ -97,10 +97,10 @@ impl Blinds {
     /// unsure steps: −1 counts them as dark with all blinds open (lower limit), 1 as lit with all blinds closed (upper
     /// limit), 0 uses them as given.
     pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
-        let mut values: Vec<f64> = (0..steps.len()).flat_map(|k| light.row(k).iter().copied()).collect();
-        for (row, _) in values.chunks_exact_mut(light.places()).zip(worked).filter(|(_, one)| one.unsure && sign != 0.0)
-        {
-            row.fill(if sign < 0.0 { 0.0 } else { f64::MAX });
+        let unsure = vec![if sign < 0.0 { 0.0 } else { f64::MAX }; light.places()];
+        let mut shifted = StepTable::zeros(steps.len(), light.places(), steps.len());
+        for (step, one) in worked.iter().enumerate() {
+            shifted.set(step, if one.unsure && sign != 0.0 { &unsure } else { light.row(step) });
         }
         let groups = worked.iter().map(|one| one.closed.len()).max().unwrap_or(0);
         let closed = |group: usize| {
@@ -111,7 +111,7 @@ impl Blinds {
             length * steps.iter().zip(worked).filter(|pair| counts(*pair)).count() as f64
         };
         Self {
-            sda_300_50: Light::new(light.places(), &values).map_or(0.0, |all| Autonomy::of(steps, all).sda_300_50),
+            sda_300_50: shifted.columns(0..light.places()).map_or(0.0, |all| Autonomy::of(steps, all).sda_300_50),
             closed_hours: (0..groups).map(closed).collect(),
         }
     }

@@ -14,6 +14,83 @@ pub struct Step {
     pub diffuse_horizontal: f64,
 }
 
+/// Values of the steps of a year: one row per step, one column per place. Rows of zeros, about half of a year, take no
+/// memory.
+#[derive(Debug, Clone)]
+pub struct StepTable {
+    width: usize,
+    /// Index of the row of `values` for each step.
+    rows: Vec<u32>,
+    /// Rows one after the other; the first one consists of zeros.
+    values: Vec<f64>,
+}
+
+impl StepTable {
+    /// Creates a table of zeros for a number of steps and places. `filled`: expected number of rows with other values.
+    pub fn zeros(steps: usize, places: usize, filled: usize) -> Self {
+        let mut values = Vec::with_capacity((filled + 1) * places);
+        values.resize(places, 0.0);
+        Self { width: places, rows: vec![0; steps], values }
+    }
+
+    /// Returns the number of steps.
+    pub fn steps(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// Sets the values of a step, one per place.
+    pub fn set(&mut self, step: usize, row: &[f64]) {
+        assert_eq!(row.len(), self.width, "a row has a value for each place");
+        match self.rows[step] as usize {
+            0 if row.iter().all(|value| *value == 0.0) => {}
+            0 => {
+                self.rows[step] = (self.values.len() / self.width) as u32;
+                self.values.extend_from_slice(row);
+            }
+            known => self.values[known * self.width..][..self.width].copy_from_slice(row),
+        }
+    }
+
+    /// Returns the values of a step, one per place.
+    pub fn row(&self, step: usize) -> &[f64] {
+        &self.values[self.rows[step] as usize * self.width..][..self.width]
+    }
+
+    /// Returns all values, step by step.
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        (0..self.steps()).flat_map(|step| self.row(step)).copied()
+    }
+
+    /// Returns the table of `of(a, b)` for the values a of this table and b of `other`, which has as many steps and
+    /// places. `of(0, 0)` must be 0.
+    pub fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        let filled = self.values.len().max(other.values.len()) / self.width.max(1);
+        let mut table = Self::zeros(self.steps(), self.width, filled);
+        let mut row = Vec::with_capacity(self.width);
+        for step in (0..self.steps()).filter(|&step| self.rows[step].max(other.rows[step]) > 0) {
+            row.clear();
+            row.extend(self.row(step).iter().zip(other.row(step)).map(|(a, b)| of(*a, *b)));
+            table.set(step, &row);
+        }
+        table
+    }
+
+    /// Returns the illuminances at the places of some columns; `None` if these are empty or reach beyond a row.
+    pub fn columns(&self, places: Range<usize>) -> Option<Light<'_>> {
+        let whole = !places.is_empty() && places.end <= self.width;
+        let rows = Some(&self.rows[..]);
+        let Self { width, values, .. } = self;
+        whole.then_some(Light { width: *width, first: places.start, places: places.len(), rows, values })
+    }
+}
+
+impl PartialEq for StepTable {
+    fn eq(&self, other: &Self) -> bool {
+        (self.steps(), self.width) == (other.steps(), other.width)
+            && (0..self.steps()).all(|step| self.row(step) == other.row(step))
+    }
+}
+
 /// Illuminances of a year at calculation points or observers' eyes ("places"): one row per step, one column per place.
 /// \[lx\]
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +99,8 @@ pub struct Light<'a> {
     width: usize,
     first: usize,
     places: usize,
+    /// Index of the row of `values` for each step; `None`: the rows are those of the steps.
+    rows: Option<&'a [u32]>,
     values: &'a [f64],
 }
 
@@ -29,14 +108,8 @@ impl<'a> Light<'a> {
     /// Creates the table from `values` \[lx\] in rows of `places` values, one row per step. `None` if the last row is
     /// incomplete or there are no places.
     pub fn new(places: usize, values: &'a [f64]) -> Option<Self> {
-        Self::of_columns(places, 0..places, values)
-    }
-
-    /// Creates the table from the columns `places` of `values` \[lx\] in rows of `width` values, one row per step.
-    /// `None` if the last row is incomplete, or if the columns are empty or reach beyond a row.
-    pub fn of_columns(width: usize, places: Range<usize>, values: &'a [f64]) -> Option<Self> {
-        let whole = !places.is_empty() && places.end <= width && values.len().is_multiple_of(width);
-        whole.then_some(Self { width, first: places.start, places: places.len(), values })
+        let whole = places > 0 && values.len().is_multiple_of(places);
+        whole.then_some(Self { width: places, first: 0, places, rows: None, values })
     }
 
     /// Returns the number of places (calculation points or eyes) of the table.
@@ -46,7 +119,8 @@ impl<'a> Light<'a> {
 
     /// Returns the illuminances of one step, one per place. \[lx\]
     pub fn row(&self, step: usize) -> &'a [f64] {
-        &self.values[step * self.width + self.first..][..self.places]
+        let row = self.rows.map_or(step, |rows| rows[step] as usize);
+        &self.values[row * self.width + self.first..][..self.places]
     }
 
     /// Returns the illuminance of one place in one step. \[lx\]
@@ -63,4 +137,32 @@ pub(super) fn occupied(steps: &[Step]) -> Vec<usize> {
 /// Returns the ratio of two counts, `part` over `whole`; 0 if `whole` is 0.
 pub(super) fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 { 0.0 } else { part as f64 / whole as f64 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_zeros_take_no_memory_and_are_read_like_others() {
+        let mut table = StepTable::zeros(4, 2, 1);
+        table.set(2, &[1.0, 3.0]);
+        table.set(1, &[0.0, 0.0]);
+        assert_eq!(table.values().collect::<Vec<_>>(), [0.0, 0.0, 0.0, 0.0, 1.0, 3.0, 0.0, 0.0]);
+        assert_eq!(table.values.len(), 4);
+        let light = table.columns(1..2).unwrap();
+        assert_eq!([0, 1, 2, 3].map(|step| light.at(step, 0)), [0.0, 0.0, 3.0, 0.0]);
+        assert!(table.columns(1..3).is_none() && table.columns(1..1).is_none());
+        let mut errors = StepTable::zeros(4, 2, 1);
+        errors.set(3, &[0.5, 0.0]);
+        let more = table.with(&errors, |value, error| value + error);
+        assert_eq!([more.row(2), more.row(3)], [[1.0, 3.0], [0.5, 0.0]]);
+        // Set again, and in another order.
+        let mut other = StepTable::zeros(4, 2, 2);
+        other.set(3, &[7.0, 7.0]);
+        other.set(2, &[1.0, 3.0]);
+        assert!(other != table);
+        other.set(3, &[0.0, 0.0]);
+        assert_eq!(other, table);
+    }
 }

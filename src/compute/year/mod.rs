@@ -26,4 +26,4 @@ pub mod received;
 pub mod solar;
 pub mod transmittance;
 
-pub use hours::{Light, Step};
+pub use hours::{Light, Step, StepTable};

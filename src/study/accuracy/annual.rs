@@ -122,8 +122,8 @@ pub fn annual(
             seconds: *seconds,
             stages: year.spent.iter().map(|(stage, time)| (*stage, time.as_secs_f64())).collect(),
             errors: if k + 1 == targets.len() { Vec::new() } else { errors(year, finest) },
-            stated: year.light.errors.iter().sum::<f64>()
-                / year.light.values.iter().sum::<f64>().max(f64::MIN_POSITIVE),
+            stated: year.light.errors.values().sum::<f64>()
+                / year.light.values.values().sum::<f64>().max(f64::MIN_POSITIVE),
             figures: beside(figures_with_uncertainty(year), &last),
         })
         .collect();
@@ -163,17 +163,17 @@ fn timed(
 /// read the room's sensors.
 fn errors(year: &Year, finest: &Year) -> Vec<Errors> {
     let (own, last) = (&year.light, &finest.light);
-    let lit = last.values.iter().filter(|value| **value > 0.0).count();
-    let least = DARK * last.values.iter().sum::<f64>() / lit.max(1) as f64;
-    let of = |k: usize| {
-        let value = last.values[k];
+    let lit = last.values.values().filter(|value| *value > 0.0).count();
+    let least = DARK * last.values.values().sum::<f64>() / lit.max(1) as f64;
+    let of = |((value, open), (own, stated)): ((f64, f64), (f64, f64))| {
         (value > least).then(|| Errors {
-            stated: own.errors[k] / value,
-            real: (own.values[k] - value).abs() / value,
-            open: last.errors[k] / value,
+            stated: stated / value,
+            real: (own - value).abs() / value,
+            open: open / value,
         })
     };
-    (0..last.values.len()).filter_map(of).collect()
+    let [own, last] = [own, last].map(|light| light.values.values().zip(light.errors.values()));
+    last.zip(own).filter_map(of).collect()
 }
 
 /// Returns the annual figures with the uncertainty that follows from the errors of the hourly illuminances.

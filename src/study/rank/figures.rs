@@ -7,6 +7,7 @@ use super::question::Group;
 use crate::catalogue::{Origin, Product};
 use crate::compute::btdf::{Severity, SolarSource};
 use crate::compute::estimate::{Estimate, Progress};
+use crate::compute::year::StepTable;
 use crate::study::error::StudyError;
 use crate::study::scene_file::Interpolation;
 use crate::study::session::Session;
@@ -132,15 +133,13 @@ impl Setting<'_> {
 
 /// Adds the error by blurring beams in patch-averaged data to the errors of a year.
 fn blur(year: &mut Year) {
-    let add = |values: &[f64], errors: &mut [f64]| {
-        errors.iter_mut().zip(values).for_each(|(error, value)| *error += BLURRED * value);
-    };
-    add(&year.light.values, &mut year.light.errors);
+    let more = |error: f64, value: f64| error + BLURRED * value;
+    year.light.errors = year.light.errors.with(&year.light.values, more);
     if let Some(own) = &mut year.lm83 {
-        add(&own.values, &mut own.errors);
+        own.errors = own.errors.with(&own.values, more);
     }
     if let Some(own) = &mut year.solar {
-        add(&own.watts, &mut own.errors);
+        own.errors.iter_mut().zip(&own.watts).for_each(|(error, watts)| *error = more(*error, *watts));
     }
 }
 
@@ -148,7 +147,6 @@ fn blur(year: &mut Year) {
 fn dark(climate: &Climate) -> Year {
     let steps = climate.steps.list.len();
     let places = climate.settings.sensors + climate.settings.eyes.len();
-    let nothing = vec![0.0; places * steps];
     let eyes = climate.settings.eyes.len();
     let dgp = || Dgp { eyes, values: vec![Some(Estimate::exact(0.0)); eyes * steps], unproven: 0 };
     Year {
@@ -159,14 +157,7 @@ fn dark(climate: &Climate) -> Year {
         movements: Vec::new(),
         indoor: None,
         chosen: (0..steps).collect(),
-        light: Light {
-            places,
-            values: nothing.clone(),
-            errors: nothing.clone(),
-            sun: Some(nothing),
-            sets: 0,
-            dark: steps,
-        },
+        light: Light { sun: Some(StepTable::zeros(steps, places, 0)), ..Light::dark(steps, places, 0, 0) },
         retracted_sun: None,
         direct_sun: true,
         lm83: None,
@@ -216,7 +207,7 @@ fn approximation_reasons(product: &Product, year: &Year) -> Vec<String> {
     if year.lm83.as_ref().is_some_and(|lm83| lm83.groups.iter().any(|group| group.states.is_none())) {
         list.push(format!("LM-83: a shade of {:.0} % stands in for blinds", 100.0 * SHADE));
     }
-    let (light, errors): (f64, f64) = (year.light.values.iter().sum(), year.light.errors.iter().sum());
+    let (light, errors): (f64, f64) = (year.light.values.values().sum(), year.light.errors.values().sum());
     if errors > MAX_RELATIVE_ERROR * light {
         list.push(format!("light known to {:.0} %", 100.0 * errors / light));
     }

@@ -97,8 +97,7 @@ impl Grouping {
         let steps = year.chosen.iter().filter(|&&k| counts(k)).count().max(1);
         let scale = 1.0 / (steps * self.zones.len().max(1)) as f64;
         for (row, &k) in year.chosen.iter().enumerate().filter(|(_, k)| counts(**k)) {
-            let light = &year.light.values[row * year.light.places..];
-            for (e, zone) in light.iter().zip(&self.zones) {
+            for (e, zone) in year.light.values.row(row).iter().zip(&self.zones) {
                 parts.values[self.times[k] * self.names.len() + zone] += scale * of(*e);
             }
         }
@@ -112,7 +111,7 @@ impl Grouping {
         let each: Vec<Lamps> =
             lamps.zones.iter().map(|zone| Lamps { zones: vec![zone.clone()], ..lamps.clone() }).collect();
         for (row, &k) in year.chosen.iter().enumerate() {
-            let light = &year.light.values[row * year.light.places..][..year.settings.sensors];
+            let light = &year.light.values.row(row)[..year.settings.sensors];
             for (zone, lamps) in each.iter().enumerate() {
                 let energy = lamps.watts(year.steps.list[k].occupied, light) * year.steps.length / 1000.0;
                 parts.values[self.times[k] * parts.zones.len() + zone] += scale * energy;

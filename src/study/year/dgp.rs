@@ -73,9 +73,9 @@ pub(super) fn dgp(
             if progress.cancelled() {
                 return Err(StudyError::from(Cancelled));
             }
-            let at = row * light.places + settings.sensors;
+            let [values, errors] = [&light.values, &light.errors].map(|table| &table.row(row)[settings.sensors..]);
             let vertical: Vec<Estimate> =
-                (at..at + eyes).map(|k| Estimate::new(light.values[k], light.errors[k])).collect();
+                values.iter().zip(errors).map(|(e, error)| Estimate::new(*e, *error)).collect();
             let glare = engine.at(question, chosen[row], &vertical)?;
             progress.advance("glare", done.fetch_add(1, Ordering::Relaxed) + 1, total);
             Ok((row, glare))

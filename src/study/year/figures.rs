@@ -9,7 +9,7 @@ use crate::compute::year::lighting::Energy;
 use crate::compute::year::probability::Probability;
 use crate::compute::year::provision::Provision;
 use crate::compute::year::solar::{Transmitted, When};
-use crate::compute::year::{Light, Step};
+use crate::compute::year::{Step, StepTable};
 
 /// Annual figures of the requested steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,9 +52,7 @@ pub struct SolarFigures {
 /// all illuminances higher. The differences are the uncertainty of the figures.
 pub fn figures(year: &Year) -> [Figures; 3] {
     let light = &year.light;
-    let shifted = |sign: f64| -> Vec<f64> {
-        light.values.iter().zip(&light.errors).map(|(value, error)| (value + sign * error).max(0.0)).collect()
-    };
+    let shifted = |sign: f64| light.values.with(&light.errors, |value, error| (value + sign * error).max(0.0));
     // One after the other: each table is as large as the light itself.
     let own = of(year, &light.values, 0.0);
     let [less, more] = [-1.0, 1.0].map(|sign| of(year, &shifted(sign), sign));
@@ -82,7 +80,7 @@ fn transmitted(year: &Year, sign: f64) -> Option<SolarFigures> {
 
 /// Returns the figures for the illuminances `values` of the year \[lx\]. `sign`: factor of the errors that are added to
 /// solar power and glare.
-fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
+fn of(year: &Year, values: &StepTable, sign: f64) -> Figures {
     let (sensors, places) = (year.settings.sensors, year.light.places);
     let steps: Vec<Step> = year
         .chosen
@@ -95,11 +93,9 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
     let whole = year.steps.whole && year.chosen.len() == year.steps.list.len();
     // EN 17037 counts the hours of daylight, whether occupied or not.
     let daylit = whole && year.settings.unoccupied;
-    let desks = |values| Light::of_columns(places, 0..sensors, values);
-    let eyes = |values| Light::of_columns(places, sensors..places, values);
-    let sun = year.light.sun.as_deref();
+    let sun = year.light.sun.as_ref().and_then(|table| table.columns(sensors..places));
     let length = year.steps.length;
-    let light = desks(values);
+    let light = values.columns(0..sensors);
     Figures {
         steps: steps.len(),
         occupied: steps.iter().filter(|step| step.occupied).count(),
@@ -108,7 +104,7 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
         blinds: blinds(year, &steps, sign),
         exposure: if whole { exposure(year, &steps) } else { None },
         provision: light.filter(|_| daylit).map(|light| Provision::of(&steps, light)),
-        glare: eyes(values).map(|light| glare(&steps, light, sun.and_then(eyes))).unwrap_or_default(),
+        glare: values.columns(sensors..places).map(|light| glare(&steps, light, sun)).unwrap_or_default(),
         solar: transmitted(year, sign),
         probability: probability(year, sign),
         lighting: year.settings.lamps.as_ref().zip(light).map(|(lamps, light)| lamps.energy(&steps, light, length)),
@@ -118,13 +114,11 @@ fn of(year: &Year, values: &[f64], sign: f64) -> Figures {
 /// Returns the exposure of the sensors to direct sun. Systems that transmit none in the states in use, or in the open
 /// states, count as zero.
 fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
-    let (sensors, places) = (year.settings.sensors, year.light.places);
-    let in_use = year.light.sun.as_deref();
-    let retracted = if year.moving.is_empty() { in_use } else { year.retracted_sun.as_deref() };
+    let in_use = year.light.sun.as_ref();
+    let retracted = if year.moving.is_empty() { in_use } else { year.retracted_sun.as_ref() };
     in_use.or(retracted)?;
-    let dark = if in_use.and(retracted).is_some() { Vec::new() } else { vec![0.0; places * steps.len()] };
-    let desks = |values| Light::of_columns(places, 0..sensors, values);
-    let [in_use, retracted] = [in_use, retracted].map(|sun| desks(sun.unwrap_or(&dark)));
+    let dark = StepTable::zeros(steps.len(), year.light.places, 0);
+    let [in_use, retracted] = [in_use, retracted].map(|sun| sun.unwrap_or(&dark).columns(0..year.settings.sensors));
     Some(Exposure::of(steps, in_use?, retracted?, year.steps.length))
 }
 
@@ -132,9 +126,8 @@ fn exposure(year: &Year, steps: &[Step]) -> Option<Exposure> {
 /// direct sun that operates them.
 fn blinds(year: &Year, steps: &[Step], sign: f64) -> Option<Blinds> {
     let lm83 = year.lm83.as_ref()?;
-    let own = lm83.values.iter().zip(&lm83.errors);
-    let values: Vec<f64> = own.map(|(value, error)| (value + sign * error).max(0.0)).collect();
-    let light = Light::new(year.settings.sensors.max(1), &values)?;
+    let values = lm83.values.with(&lm83.errors, |value, error| (value + sign * error).max(0.0));
+    let light = values.columns(0..year.settings.sensors)?;
     Some(Blinds::of(steps, light, &lm83.worked, year.steps.length, sign))
 }
 

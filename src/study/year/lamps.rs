@@ -45,7 +45,7 @@ pub fn sunniest(year: &Year, month: u8) -> Option<Date> {
 /// computed.
 pub fn day(year: &Year, date: Date) -> Option<Day> {
     let lamps = year.settings.lamps.as_ref()?;
-    let (sensors, places) = (year.settings.sensors, year.light.places);
+    let sensors = year.settings.sensors;
     let half = 0.5 * year.steps.length;
     let mut day = Day { date, direct: 0.0, spans: Vec::new(), watts: Vec::new(), between: Vec::new() };
     for (row, &k) in year.chosen.iter().enumerate() {
@@ -53,8 +53,7 @@ pub fn day(year: &Year, date: Date) -> Option<Day> {
         if step.time.date() != date {
             continue;
         }
-        let own = row * places..row * places + sensors;
-        let (values, errors) = (&year.light.values[own.clone()], &year.light.errors[own]);
+        let [values, errors] = [&year.light.values, &year.light.errors].map(|table| &table.row(row)[..sensors]);
         let watts = |sign: f64| {
             let light: Vec<f64> = values.iter().zip(errors).map(|(e, error)| (e + sign * error).max(0.0)).collect();
             lamps.watts(step.occupied, &light)

@@ -6,9 +6,10 @@
 use super::direct_sun::DirectSun;
 use super::fixed::{put_ordinary, with_states};
 use super::settings::Settings;
-use super::steps::{Step, Steps};
+use super::steps::Steps;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::sky::{Outside, Sun};
+use crate::compute::year::StepTable;
 use crate::study::coefficients::{Coefficients, TOGETHER};
 use crate::study::control::settings;
 use crate::study::control::year::Moving;
@@ -30,17 +31,35 @@ pub struct Light {
     /// Number of places: sensors and observers together.
     pub places: usize,
     /// Total illuminances, direct and interreflected. \[lx\]
-    pub values: Vec<f64>,
+    pub values: StepTable,
     /// Estimated absolute errors of `values`. \[lx\]
-    pub errors: Vec<f64>,
+    pub errors: StepTable,
     /// Illuminances by sunlight that arrives unscattered and unreflected, which are part of `values`; `None` if nothing
     /// transmits it, or if not requested. \[lx\]
-    pub sun: Option<Vec<f64>>,
+    pub sun: Option<StepTable>,
     /// Number of different combinations of states that occur in steps with light.
     pub sets: usize,
     /// Number of chosen steps that are not computed, because they are dark, or unoccupied if only occupied steps are
     /// requested.
     pub dark: usize,
+}
+
+impl Light {
+    /// Creates the illuminances of dark steps. `lit`: number of steps that will be set.
+    pub(crate) fn dark(steps: usize, places: usize, lit: usize, sets: usize) -> Self {
+        let zeros = || StepTable::zeros(steps, places, lit);
+        Self { places, values: zeros(), errors: zeros(), sun: None, sets, dark: steps - lit }
+    }
+
+    /// Sets the illuminances of a step with their errors. `sun`: those by direct sun alone; `None` if not requested.
+    pub(super) fn put(&mut self, step: usize, values: &[f64], errors: &[f64], sun: Option<&[f64]>) {
+        self.values.set(step, values);
+        self.errors.set(step, errors);
+        if let Some(sun) = sun {
+            let (steps, places, lit) = (self.values.steps(), self.places, self.values.steps() - self.dark);
+            self.sun.get_or_insert_with(|| StepTable::zeros(steps, places, lit)).set(step, sun);
+        }
+    }
 }
 
 /// Input for the illuminances of a year.
@@ -98,14 +117,7 @@ pub(super) fn light(
         }
     }
     let lit: usize = groups.values().map(Vec::len).sum();
-    let mut light = Light {
-        places,
-        values: vec![0.0; places * chosen.len()],
-        errors: vec![0.0; places * chosen.len()],
-        sun: None,
-        sets: groups.len(),
-        dark: chosen.len() - lit,
-    };
+    let mut light = Light::dark(chosen.len(), places, lit, groups.len());
     let mut done = 0;
     for (set, rows) in groups {
         let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
@@ -114,15 +126,8 @@ pub(super) fn light(
             let found = engine.steps(question, &steps, &Counted { inner: progress, before: done, all: lit })?;
             done += rows.len();
             for (row, found) in rows.iter().zip(found) {
-                let at = row * places;
-                for (place, e) in found.light.into_iter().enumerate() {
-                    light.values[at + place] = e.value;
-                    light.errors[at + place] = e.error;
-                }
-                if let Some(sun) = found.sun {
-                    let all = light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()]);
-                    all[at..at + places].copy_from_slice(&sun);
-                }
+                let (values, errors): (Vec<f64>, Vec<f64>) = found.light.iter().map(|e| (e.value, e.error)).unzip();
+                light.put(*row, &values, &errors, found.sun.as_deref());
             }
         }
     }
@@ -135,7 +140,7 @@ pub(super) fn light(
 ///
 /// # Errors
 /// Returns an error if the scene is wrong, or if cancelled.
-pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) -> Result<Option<Vec<f64>>, StudyError> {
+pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) -> Result<Option<StepTable>, StudyError> {
     if question.moving.is_empty() || !question.settings.direct_sun {
         return Ok(None);
     }
@@ -145,20 +150,22 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     if !all.passes() {
         return Ok(None);
     }
-    let put = |(row, (k, step)): (&mut [f64], (usize, &Step))| {
+    let list = &question.steps.list;
+    // Only occupied steps are counted.
+    let counts: Vec<usize> = (0..list.len()).filter(|&k| list[k].occupied && list[k].hour.is_lit()).collect();
+    let at = |&k: &usize| {
         if progress.cancelled() {
             return Err(StudyError::from(Cancelled));
         }
-        // Only occupied steps are counted.
-        let sun = if step.occupied && step.hour.is_lit() { question.steps.even_outside(k)?.1 } else { None };
-        if let Some(sun) = sun {
-            row.copy_from_slice(&all.at(&sun));
-        }
-        Ok(())
+        Ok(question.steps.even_outside(k)?.1.map(|sun| all.at(&sun)))
     };
-    let list = &question.steps.list;
-    let mut table = vec![0.0; list.len() * all.places()];
-    table.par_chunks_mut(all.places().max(1)).zip(list.par_iter().enumerate()).try_for_each(put)?;
+    let mut table = StepTable::zeros(list.len(), all.places(), counts.len());
+    for steps in counts.chunks(PIECES * TOGETHER) {
+        let found: Vec<Option<Vec<f64>>> = steps.par_iter().map(at).collect::<Result<_, StudyError>>()?;
+        for (&k, sun) in steps.iter().zip(&found) {
+            sun.iter().for_each(|sun| table.set(k, sun));
+        }
+    }
     Ok(Some(table))
 }
 

@@ -17,6 +17,7 @@ use super::settings::Settings;
 use super::steps::Steps;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::sky::Sun;
+use crate::compute::year::StepTable;
 use crate::compute::year::blinds::{GroupSun, Worked, worked};
 use crate::study::control::settings as control_settings;
 use crate::study::control::year::Moving;
@@ -53,9 +54,9 @@ pub struct Lm83 {
     /// Groups that are closed in each chosen step; all are open in unoccupied and in dark steps.
     pub worked: Vec<Worked>,
     /// Illuminances at the sensors (not the observers) in the chosen steps; 0 in unoccupied steps. \[lx\]
-    pub values: Vec<f64>,
+    pub values: StepTable,
     /// Estimated absolute errors of `values`. \[lx\]
-    pub errors: Vec<f64>,
+    pub errors: StepTable,
 }
 
 /// Input for operating blinds by the rule of LM-83.
@@ -105,11 +106,10 @@ pub(super) fn lm83(
         all[row] = one;
     }
     let sensors = settings.sensors;
-    let mut values = vec![0.0; sensors * question.chosen.len()];
-    let mut errors = values.clone();
+    let [mut values, mut errors] = [(); 2].map(|()| StepTable::zeros(question.chosen.len(), sensors, rows.len()));
     let mut put = |row: usize, light: &Light, from: usize| {
-        values[row * sensors..][..sensors].copy_from_slice(&light.values[from * light.places..][..sensors]);
-        errors[row * sensors..][..sensors].copy_from_slice(&light.errors[from * light.places..][..sensors]);
+        values.set(row, &light.values.row(from)[..sensors]);
+        errors.set(row, &light.errors.row(from)[..sensors]);
     };
     // Observers are not needed here.
     let without_eyes = Settings { eyes: Vec::new(), ..settings.clone() };

@@ -71,8 +71,7 @@ pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
 /// Returns the value of a quantity in a computed step, in the unit of the map. `k`: index of the step; `row`: its index
 /// among the chosen ones; `ranks`: positions of the states in their order.
 fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
-    let Light { places, values, .. } = &year.light;
-    let own = &values[row * places..(row + 1) * places];
+    let own = year.light.values.row(row);
     let (sensors, step) = (year.settings.sensors, &year.steps.list[k]);
     match shows {
         Shows::Mean => own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64,
@@ -94,8 +93,7 @@ fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f6
 /// `step`: index of the step in the year.
 pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     let row = year.chosen.binary_search(&step).ok()?;
-    let Light { places, errors, .. } = &year.light;
-    let own = &errors[row * places..(row + 1) * places];
+    let own = year.light.errors.row(row);
     let sensors = year.settings.sensors;
     match shows {
         // Errors of neighbouring sensors are correlated: they are assumed to add up.

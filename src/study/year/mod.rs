@@ -77,6 +77,7 @@ use super::scene_file::SceneFile;
 use super::session::Session;
 use super::system::SystemLibrary;
 use crate::compute::estimate::Progress;
+use crate::compute::year::StepTable;
 use crate::study::control::year::Moving;
 use states::States;
 use std::path::Path;
@@ -106,7 +107,7 @@ pub struct Year {
     /// Illuminance by direct sun alone at sensors and observers, with every moving aperture in the open state of its
     /// control, over all steps of a whole year; `None` if nothing moves, nothing transmits direct sun, or it is not
     /// requested. \[lx\]
-    pub retracted_sun: Option<Vec<f64>>,
+    pub retracted_sun: Option<StepTable>,
     /// Whether a system transmits direct sun in the states of the year or in the open state of its control, as far as
     /// requested.
     pub direct_sun: bool,

@@ -248,22 +248,10 @@ pub(super) fn light(
             block = ((part.len() as f64 * share) as usize).max(FIRST);
         }
     }
-    let mut light = Light {
-        places,
-        values: vec![0.0; places * chosen.len()],
-        errors: vec![0.0; places * chosen.len()],
-        sun: None,
-        sets: count,
-        dark: chosen.len() - all,
-    };
+    let mut light = Light::dark(chosen.len(), places, all, count);
     for (row, k) in chosen.iter().enumerate() {
         let Some(hour) = kept.hours.get(k).filter(|hour| hour.values.len() == places) else { continue };
-        let at = row * places..(row + 1) * places;
-        light.values[at.clone()].copy_from_slice(&hour.values);
-        light.errors[at.clone()].copy_from_slice(&hour.errors);
-        if let Some(sun) = &hour.sun {
-            light.sun.get_or_insert_with(|| vec![0.0; places * chosen.len()])[at].copy_from_slice(sun);
-        }
+        light.put(row, &hour.values, &hour.errors, hour.sun.as_deref());
     }
     Ok(light)
 }
