@@ -99,7 +99,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
         let from = commands.len();
         centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));
         if let Some(place) = app.state.compare.swapped {
-            app.retarget(place, from, &mut commands);
+            app.compare.retarget(place, &app.state.document, from, &mut commands);
         }
     }
     tour::ring(ui, app, &places);

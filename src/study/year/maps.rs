@@ -1,8 +1,8 @@
 //! Results of a year, or data of a weather file, as a map of hours.
 
+use super::Year;
 use super::look::{Look, Shows};
 use super::steps::Step;
-use super::{Light, Year};
 use crate::compute::glare::dgps;
 use crate::compute::weather::{Quantity, Reading, Weather};
 use crate::drawing::colours::{ColourMap, ColourScale};
