@@ -126,12 +126,8 @@ fn weights_of(
     let block = |sensors: &Range<usize>| {
         check(progress)?;
         let [fine, coarse] = [0, 1].map(|k| walls(sensors.clone()).map(|wall| &wall[k][..]).collect::<Vec<_>>());
-        Ok::<_, StudyError>(radiosity.adjoint_fine(&fine).into_iter().zip(radiosity.adjoint_coarse(&coarse)))
-    };
-    let found = blocks.par_iter().map(block).collect::<Result<Vec<_>, _>>()?;
-    let mut found = found.into_iter().flatten();
-    Ok((0..gather.len())
-        .map(|s| {
+        let mut found = radiosity.adjoint_fine(&fine).into_iter().zip(radiosity.adjoint_coarse(&coarse));
+        let response = |s: usize| {
             let mut response = Response { value: vec![0.0; radiosity.nested.fine.patches.len()], walls: Vec::new() };
             for (by_fine, by_coarse) in found.by_ref().take(walls(s..s + 1).count()) {
                 // As the extrapolation of the two densities: fine + (fine − coarse)/3.
@@ -142,8 +138,11 @@ fn weights_of(
                 response.walls.push(difference);
             }
             response
-        })
-        .collect())
+        };
+        Ok(sensors.clone().map(response).collect::<Vec<_>>())
+    };
+    let found = blocks.par_iter().map(block).collect::<Result<Vec<_>, StudyError>>()?;
+    Ok(found.into_iter().flatten().collect())
 }
 
 impl Responses {
