@@ -444,10 +444,7 @@ fn section_ui(
         x: Axis::linear([-90.0, 90.0], say::ZENITH_ANGLE, Unit::Degrees),
         y: if scale.log { Axis::log } else { Axis::linear }([scale.lo, scale.hi], "L", Unit::Named("cd/m²")),
         series: vec![Series::line(say::SKY_PLACE, points.iter().copied())],
-        guides: sun
-            .map(|x| Guide { name: say::SUN.into(), ends: [[x, scale.lo], [x, scale.hi]] })
-            .into_iter()
-            .collect(),
+        guides: sun.iter().map(|&x| Guide { name: say::SUN.into(), ends: [[x, scale.lo], [x, scale.hi]] }).collect(),
     };
     let colours = [palette.first];
     let look = Look::tile(ui.scope_id().with("section"), &colours, palette.sun);
