@@ -63,8 +63,8 @@
 //! | I want to … | edit |
 //! | --- | --- |
 //! | add a dataset format | a file in [`formats`], an arm of [`formats::Format`] and of its dispatch |
-//! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], an arm of [`formats::LuminaireFormat`] and of its methods |
-//! | add a sky model | a file in [`compute::sky`], its key, labels and usual values in [`study::scene_file`], its arm in [`study::sky`]; fields for keys of its own in [`app::panels`] |
+//! | add a luminaire format | a file in [`formats`] over [`formats::luminaire`], an arm of [`formats::LuminaireFormat`] and of its methods; the extensions that help and messages name |
+//! | add a sky model | a file in [`compute::sky`], where `distribution` and `horizontal` have an arm for luminances of a new form; its key, labels and usual values in [`study::scene_file`], its arm in [`study::sky`]; fields for keys of its own in [`app::panels`] |
 //! | add a weather format | a file in [`formats::weather`] that fills a [`compute::weather::Weather`], its arm in [`formats::weather::read`] |
 //! | add a family of systems | a folder in [`compute::system`] that implements [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
 //! | add a built-in product | a description under `assets/systems`, whose README says how to compute the table of figures; [`catalogue::SYSTEMS`] lists all |

@@ -14,7 +14,6 @@ use crate::compute::btdf::{Btdf, Dataset, Indicatrices};
 use crate::compute::direction::Incident;
 use crate::compute::estimate::{Progress, Silent};
 use crate::compute::lid::Interpolator;
-use crate::formats::ies::IesEdition;
 use crate::study::accuracy::{Accuracy, ladder};
 use crate::study::builtin;
 use crate::study::compact::stored_by_default;
@@ -388,8 +387,8 @@ impl Engine for StudyEngine {
     }
 
     fn luminaire(&self, lid: &LidFigures, path: &Path) -> Result<Vec<u8>, AppError> {
-        let encoded = LidFormat::of(path, IesEdition::Lm63_2002)
-            .and_then(|format| encode(&lid.lid, lid.description.clone(), format, None, None));
+        let encoded =
+            LidFormat::of(path).and_then(|format| encode(&lid.lid, lid.description.clone(), format, None, None));
         Ok(encoded.map_err(|error| AppError::from(error).about(path.display()))?.bytes)
     }
 

@@ -300,8 +300,8 @@ impl App {
 
 impl Columns {
     /// Redirects commands from the tiles of a candidate to the scene, if they change something that the candidate takes
-    /// from the scene. `place`: position of the candidate; `document`: that of the
-    /// window; `from`: index of the first of these commands in the list.
+    /// from the scene. `place`: position of the candidate; `document`: document of the window; `from`: index of the
+    /// first of these commands in the list.
     pub(super) fn retarget(&self, place: usize, document: &Document, from: usize, commands: &mut Vec<Command>) {
         let Some(column) = self.list.get(place) else { return };
         let own = commands.split_off(from);

@@ -185,7 +185,8 @@ mod format_key {
             Stored::Extension(extension) => extension,
             Stored::IsIes(ies) => if ies { ".ies" } else { ".ldt" }.to_owned(),
         };
-        LuminaireFormat::from_name(&extension).ok_or_else(|| serde::de::Error::custom(extension))
+        // A format of a later version is no reason to refuse all choices.
+        Ok(LuminaireFormat::from_name(&extension).unwrap_or(LuminaireFormat::Eulumdat))
     }
 }
 

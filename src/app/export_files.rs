@@ -11,7 +11,6 @@ use crate::compute::estimate::{Cancelled, Progress};
 use crate::drawing::colours::Inks;
 use crate::drawing::{Drawing, missing_characters};
 use crate::formats::decimal_comma::with_decimal_commas;
-use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
 use crate::formats::write_dataset;
 use crate::report::comparison::Comparison;
@@ -204,8 +203,7 @@ impl Order {
     /// the files of a grid are derived.
     fn luminaires(&self, scene: &SceneFile, path: &Path, progress: &dyn Progress) -> Result<LuminaireSet, AppError> {
         let Choices { tiles, without_beam, .. } = self.choices;
-        let format =
-            LidFormat::of(path, IesEdition::Lm63_2002).map_err(|error| AppError::from(error).about(path.display()))?;
+        let format = LidFormat::of(path).map_err(|error| AppError::from(error).about(path.display()))?;
         let tiles = if tiles { Tiles::Auto } else { Tiles::None };
         let options = LuminaireOptions { format, aim: None, step: None, tiles, without_beam };
         let question = Question { scene: scene.clone(), ..self.question.clone() };

@@ -63,7 +63,8 @@ impl App {
         self.fill_catalogue();
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();
-        if !dragging {
+        // A product that is being stored is not yet a step by itself: its step also selects it.
+        if !dragging && self.adding.is_empty() {
             self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);
         }
     }

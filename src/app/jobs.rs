@@ -258,12 +258,18 @@ impl<M: Send + 'static> Jobs<M> {
     /// Returns the finished share of the current stage of a lane's job; `None` without a job, and before its first
     /// report.
     pub fn fraction(&self, lane: Lane) -> Option<f32> {
-        self.running.get(&lane)?.state.fraction()
+        self.state(lane)?.fraction()
     }
 
-    /// Returns the finished share of the current stage of a lane's job, 0 before its first report; `None` without a job.
+    /// Returns the progress of a lane's job; `None` without a job.
+    pub fn state(&self, lane: Lane) -> Option<&JobState> {
+        self.running.get(&lane).map(|job| &*job.state)
+    }
+
+    /// Returns the finished share of the current stage of a lane's job, 0 before its first report; `None` without a
+    /// job.
     pub fn progress(&self, lane: Lane) -> Option<f32> {
-        self.running.get(&lane).map(|job| job.state.fraction().unwrap_or(0.0))
+        Some(self.state(lane)?.fraction().unwrap_or(0.0))
     }
 
     /// Returns all running jobs.

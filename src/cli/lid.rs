@@ -6,9 +6,9 @@ use super::progress::TerminalProgress;
 use super::weather_info::weather_notes;
 use super::writing::{Over, StreamFormat, Tables, refuse_stream, report_written};
 use crate::compute::lid::c_gamma::{Aim, Step};
-use crate::formats::FileKind;
 use crate::formats::ies::IesEdition;
 use crate::formats::luminaire_index::{self, Row};
+use crate::formats::{FileKind, LuminaireFormat};
 use crate::study::luminaire_file::{LidFormat, describe};
 use crate::study::luminaire_series::{Member, Series};
 use crate::study::luminaire_set::{LuminaireOptions, SetError, TileFile, Tiles, make, tile_name};
@@ -279,7 +279,10 @@ fn luminaire_options(args: &LidArgs) -> Result<LuminaireOptions> {
         EditionArg::Y2019 => IesEdition::Lm63_2019,
     };
     let shown = args.out.display();
-    let format = LidFormat::of(&args.stream.name(&args.out)?, edition).with_context(|| format!("--out {shown}"))?;
+    let mut format = LidFormat::of(&args.stream.name(&args.out)?).with_context(|| format!("--out {shown}"))?;
+    if let LidFormat::Luminaire(LuminaireFormat::Ies(own)) = &mut format {
+        *own = edition;
+    }
     if !matches!(format, LidFormat::Luminaire(_)) {
         if args.tiles != Tiles::None {
             bail!("--tiles {}: {shown} is not a luminaire file (.ldt or .ies)", args.tiles);

@@ -155,14 +155,15 @@
 //!
 //! ```
 //! use cfs_compute::year::autonomy::Autonomy;
-//! use cfs_compute::year::{Light, Step};
+//! use cfs_compute::year::{Step, StepTable};
 //! use std::f64::consts::PI;
 //!
 //! let diffuse = |k: usize| 20_000.0 * (PI * ((k % 24) as f64 - 5.5) / 12.0).sin().max(0.0);
 //! let step = |k| Step { month: 1 + (k / 730) as u8, occupied: diffuse(k) > 0.0, diffuse_horizontal: diffuse(k) };
 //! let steps: Vec<Step> = (0..8760).map(step).collect();
 //! let illuminances: Vec<f64> = steps.iter().map(|step| 0.05 * step.diffuse_horizontal).collect();
-//! let light = Light::new(1, &illuminances).ok_or("not one value per step and sensor")?;
+//! let table = StepTable::of_rows(1, &illuminances).ok_or("not one value per step and sensor")?;
+//! let light = table.columns(0..1).ok_or("no sensor")?;
 //! let figures = Autonomy::of(&steps, light);
 //! assert_eq!([figures.da_300[0], figures.da_500[0]], [10.0 / 12.0, 8.0 / 12.0]);
 //! // The sum of the 12 sines of a day is 1/sin(π/24).

@@ -149,6 +149,13 @@ pub fn dome_point(altitude: f64, bearing: f64) -> [f64; 2] {
     [-r * bearing.sin(), r * bearing.cos()]
 }
 
+/// Returns the side of the disk of the sky, 1 for the right one and −1 for the left one, on which the sun covers no
+/// label. `sun`: altitude and bearing. \[rad\]
+pub fn side_without(sun: Option<(f64, f64)>) -> f64 {
+    let is_right = sun.is_some_and(|(altitude, bearing)| altitude >= 0.0 && dome_point(altitude, bearing)[0] > 0.0);
+    if is_right { -1.0 } else { 1.0 }
+}
+
 /// Disk of a hemisphere on paper: position and size of its rim.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Round {
@@ -246,6 +253,14 @@ mod tests {
     use super::*;
     use crate::compute::basis::AzimuthMap;
     use proptest::prelude::*;
+
+    #[test]
+    fn labels_stand_opposite_the_sun() {
+        let at = |altitude: f64, bearing: f64| Some((altitude.to_radians(), bearing.to_radians()));
+        let sides = [None, at(40.0, 135.0), at(40.0, 225.0), at(-5.0, 225.0)].map(side_without);
+        // West is right; below the horizon no sun is drawn.
+        assert_eq!(sides, [1.0, 1.0, -1.0, 1.0]);
+    }
 
     fn area(points: &[[f64; 2]]) -> f64 {
         let n = points.len();

@@ -14,15 +14,14 @@ pub enum LuminaireFormat {
 }
 
 impl LuminaireFormat {
-    /// All formats, in the order in which lists show them.
+    /// All formats, in the order in which lists show them; IES LM-63 in the edition that most programs read.
     pub const ALL: [Self; 2] = [Self::Eulumdat, Self::Ies(IesEdition::Lm63_2002)];
 
-    /// Returns the name of the format, with the edition in which it is written.
+    /// Returns the name of the format.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Eulumdat => "EULUMDAT",
-            Self::Ies(IesEdition::Lm63_2002) => "IES LM-63-2002",
-            Self::Ies(IesEdition::Lm63_2019) => "IES LM-63-2019",
+            Self::Ies(_) => "IES LM-63",
         }
     }
 
@@ -73,5 +72,38 @@ impl LuminaireFormat {
             Self::Eulumdat => eulumdat::write(luminaire),
             Self::Ies(edition) => ies::write(luminaire, edition),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::extension_of;
+    use crate::formats::luminaire::{Description, Opening, Photometry};
+
+    #[test]
+    fn what_a_format_writes_is_of_this_format_alone() {
+        let luminaire = Luminaire {
+            format: String::new(),
+            text: Description { name: "Downlight 7".into(), ..Description::default() },
+            photometry: Photometry::C,
+            opening: Opening::default(),
+            c_deg: vec![0.0],
+            gamma_deg: vec![0.0, 45.0, 90.0],
+            intensity: vec![100.0, 70.0, 0.0],
+            lamp_flux: None,
+            power: 0.0,
+            findings: Vec::new(),
+        };
+        for format in LuminaireFormat::ALL {
+            let bytes = format.write(&luminaire);
+            let read = format.read(&bytes).unwrap();
+            assert_eq!((&*read.text.name, &read.intensity), ("Downlight 7", &luminaire.intensity));
+            assert!(LuminaireFormat::ALL.into_iter().filter(|one| one.may_be(&bytes)).eq([format]));
+            assert_eq!(extension_of(&bytes), format.extension());
+            let name = format!("a{}", format.extension().to_uppercase());
+            assert_eq!(LuminaireFormat::from_name(&name), Some(format));
+        }
+        assert_eq!(LuminaireFormat::from_name("ldt"), None);
     }
 }

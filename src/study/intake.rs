@@ -296,11 +296,12 @@ impl Listing {
 /// Describes the content of a luminaire file in one sentence, for the reason why it is not imported.
 fn luminaire(name: &str, bytes: &[u8]) -> String {
     let (format, who) = match LuminaireFormat::from_name(name).map(|format| (format, format.read(bytes))) {
-        Some((_, Ok(luminaire))) => {
+        Some((format, Ok(luminaire))) => {
             let text = &luminaire.text;
             let words: Vec<&str> =
                 [text.name.trim(), text.manufacturer.trim()].into_iter().filter(|word| !word.is_empty()).collect();
-            (luminaire.format, if words.is_empty() { String::new() } else { format!(": {}", words.join(", ")) })
+            let who = if words.is_empty() { String::new() } else { format!(": {}", words.join(", ")) };
+            (format.name().to_owned(), who)
         }
         Some((format, Err(_))) => (format.name().to_owned(), String::new()),
         None => (name.rsplit('.').next().unwrap_or_default().to_ascii_lowercase(), String::new()),

@@ -7,7 +7,6 @@ use super::sky::{Source, illuminances};
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::Lid;
 use crate::compute::lid::c_gamma::{Aim, CGammaTable, Step};
-use crate::formats::ies::IesEdition;
 use crate::formats::luminaire::{Description, Luminaire};
 use crate::formats::{FileKind, LuminaireFormat, lid_tables};
 use std::path::Path;
@@ -37,12 +36,10 @@ pub enum LuminaireFileError {
 }
 
 impl LidFormat {
-    /// Returns the format for a file's extension. `edition`: edition of IES LM-63 for `.ies`.
-    pub fn of(path: &Path, edition: IesEdition) -> Result<Self, LuminaireFileError> {
-        match LuminaireFormat::from_name(&path.to_string_lossy()) {
-            Some(LuminaireFormat::Ies(_)) => return Ok(Self::Luminaire(LuminaireFormat::Ies(edition))),
-            Some(format) => return Ok(Self::Luminaire(format)),
-            None => {}
+    /// Returns the format for a file's extension.
+    pub fn of(path: &Path) -> Result<Self, LuminaireFileError> {
+        if let Some(format) = LuminaireFormat::from_name(&path.to_string_lossy()) {
+            return Ok(Self::Luminaire(format));
         }
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         match extension.as_str() {
@@ -263,7 +260,7 @@ normal = [0.0, 0.0, 1.0]
         let text = describe("office.toml", &scene, Path::new(""), 0, "2026-03-21");
         let parts = vec![EmergentLuminance::Uniform(500.0)];
         let lid = Lid { surface: Surface::Facade, size: [4.0, 1.5], parts, beams: Vec::new() };
-        let format = LidFormat::of(Path::new("a.IES"), IesEdition::Lm63_2002).unwrap();
+        let format = LidFormat::of(Path::new("a.IES")).unwrap();
         // EULUMDAT has a line of 78 characters for it.
         let ldt = encode(&lid, text.clone(), LidFormat::Luminaire(LuminaireFormat::Eulumdat), None, None).unwrap();
         let ldt = String::from_utf8(ldt.bytes).unwrap();
@@ -290,7 +287,7 @@ normal = [0.0, 0.0, 1.0]
 
     #[test]
     fn unknown_extension_lists_the_known_ones() {
-        let error = LidFormat::of(Path::new("a.dwg"), IesEdition::Lm63_2002).unwrap_err().to_string();
+        let error = LidFormat::of(Path::new("a.dwg")).unwrap_err().to_string();
         assert!(error.contains("dwg") && error.contains("ldt"), "{error}");
     }
 }

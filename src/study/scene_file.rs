@@ -10,7 +10,9 @@ mod system;
 pub(super) mod units;
 
 pub use self::dst::{ANY_YEAR, DstKey};
-pub use self::sky::{DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey};
+pub use self::sky::{
+    DEFAULT_TURBIDITY, IlluminanceKey, ObstructionKeys, SkyKeys, SkyModelKey, SunKeys, TimeKey, USUAL_IRRADIANCES,
+};
 pub use self::system::{FamilyState, IdealKind, RANKED, SystemKeys};
 pub use super::control::keys::{ControlKeys, ControlMode};
 use super::near_field::NearFieldKey;

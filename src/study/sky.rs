@@ -188,3 +188,23 @@ fn perez(sky: &SkyKeys, sun: Dir<World>, eccentricity: f64) -> Result<(Outside, 
     let illuminance = sky.diffuse_horizontal.unwrap_or(diffuse * state.diffuse_efficacy());
     Ok((scaled(Distribution::perez(&state, sun), illuminance)?, beam))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::example::first_scene;
+
+    #[test]
+    fn a_chosen_model_has_all_keys_that_it_needs_and_no_others() {
+        for first in SkyModelKey::ALL {
+            for next in SkyModelKey::ALL {
+                let mut scene = first_scene();
+                scene.sky.choose(first);
+                scene.sky.choose(next);
+                let error = outside_from_keys(&scene.sky, &scene.site, Path::new("")).err().map(|error| error.key);
+                let missing = (next == SkyModelKey::Scan).then_some("sky.file");
+                assert_eq!(error, missing, "{first:?}, then {next:?}");
+            }
+        }
+    }
+}

@@ -2,6 +2,7 @@
 //! Ctrl+Z, to the same study and the same catalogue.
 
 use crate::driven::{Idle, apply, frames, settle};
+use crate::files_view::sheet;
 use cfs::app::backend::memory_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
@@ -114,6 +115,28 @@ fn steps_that_follow_on_each_other_at_once_are_taken_back_one_by_one() {
         settle(&mut harness);
         assert_eq!(kept(&harness).document, *before);
     }
+}
+
+#[test]
+fn products_that_take_long_to_store_are_taken_back_in_one_step() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("screen.xml");
+    std::fs::write(&file, sheet("Screen", 0.4)).unwrap();
+    let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut harness);
+    apply(&mut harness, Command::OpenPaths(vec![file]));
+    let key = harness.state().state.found.entries[0].key.clone();
+    // A frame makes one change of the catalogue: the product waits for longer than the history does for a step.
+    for change in 0..20 {
+        harness.state_mut().apply(Command::Favourite(key.clone(), change % 2 == 0));
+    }
+    let (before, count) = (harness.state().state.document.clone(), kept(&harness).products.len());
+    harness.state_mut().apply(Command::AddImport);
+    rest(&mut harness);
+    let added = kept(&harness);
+    assert!(added.products.len() == count + 1 && added.document.selection != before.selection);
+    apply(&mut harness, Command::Undo);
+    assert_eq!((kept(&harness).document, kept(&harness).products.len()), (before, count));
 }
 
 #[test]

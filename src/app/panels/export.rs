@@ -220,15 +220,14 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         return;
     }
-    let job = app.jobs.views().into_iter().find(|job| job.lane == Lane::Export).filter(|_| app.writing);
-    if let Some(job) = job {
+    if let Some(job) = app.jobs.state(Lane::Export).filter(|_| app.writing) {
         ui.horizontal(|ui| {
             if ui.button(texts::STOP).on_hover_text(texts::STOP_TIP).clicked() {
                 commands.push(Command::Cancel(Lane::Export));
             }
-            let share = job.state.fraction().unwrap_or(0.0);
-            let stage = stages::word(job.state.stage());
-            let words = job.state.left().map(|left| texts::stage_left(stage, left.as_secs().max(1)));
+            let share = job.fraction().unwrap_or(0.0);
+            let stage = stages::word(job.stage());
+            let words = job.left().map(|left| texts::stage_left(stage, left.as_secs().max(1)));
             let words = words.unwrap_or_else(|| stage.to_owned());
             ui.add(egui::ProgressBar::new(share).desired_width(240.0).text(words));
         });

@@ -20,8 +20,8 @@ const LEAST_HEIGHT: f32 = 220.0;
 /// Height of the parts of the panel above and below text editor and drawing. \[points\]
 const REST: f32 = 250.0;
 
-/// Draws the side panel of the virtual goniophotometer. `running`: share of the measurement that is done; `None` if it is
-/// not running.
+/// Draws the side panel of the virtual goniophotometer. `running`: progress of the current state, 0 … 1; `None` if
+/// nothing is running.
 pub(super) fn show(
     ui: &mut Ui,
     state: &State,

@@ -81,8 +81,8 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
     });
 }
 
-/// Draws the plot of error against computing time, and passes its commands on. `running`: share of the computation that
-/// is done; `None` if it is not running.
+/// Draws the plot of error against computing time, and passes its commands on. `running`: finished
+/// share of the current stage; `None` if nothing is running.
 fn ladder(
     ui: &mut Ui,
     results: &Results,

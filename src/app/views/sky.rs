@@ -9,7 +9,7 @@ use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile::{self, Foot, Status, Words};
 use crate::compute::angle::wrap_two_pi;
-use crate::drawing::hemisphere::dome_point;
+use crate::drawing::hemisphere::{dome_point, side_without};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
 use crate::texts::{Text, fixed, tiles as say};
@@ -392,8 +392,7 @@ fn mix(a: Color32, b: Color32, t: f32) -> Color32 {
 fn compass(ui: &Ui, disk: &Disk, input: &Input<'_>, palette: &Palette) {
     let painter = ui.painter();
     let thin = Stroke::new(1.0, palette.outline.gamma_multiply(0.45));
-    // The labels stand in the half without the sun, which would cover them.
-    let side = if input.sun.is_some_and(|sun| disk_point(sun)[0] > 0.0) { -1.0 } else { 1.0 };
+    let side = side_without(input.sun.map(|sun| (sun.altitude, sun.bearing))) as f32;
     for deg in [30.0_f32, 60.0] {
         painter.circle_stroke(disk.centre, disk.radius * (1.0 - deg / 90.0), thin);
         if disk.radius > 60.0 {

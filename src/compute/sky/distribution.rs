@@ -72,8 +72,8 @@ impl Distribution {
     /// one.
     pub(super) fn sun_direction(&self) -> Option<Dir<World>> {
         match &self.model {
-            Model::Gradated(sky, sun) if !sky.symmetric() => Some(Dir::from_unit(*sun)),
-            _ => None,
+            Model::Gradated(sky, sun) => (!sky.symmetric()).then(|| Dir::from_unit(*sun)),
+            Model::Uniform | Model::Overcast | Model::Scan(_) => None,
         }
     }
 
@@ -84,5 +84,10 @@ impl Distribution {
             Model::Gradated(sky, _) => sky.symmetric() && sky.a == 0.0,
             Model::Overcast | Model::Scan(_) => false,
         }
+    }
+
+    /// Whether the luminance is constant over each of Tregenza's 145 patches of the dome.
+    pub(super) const fn is_piecewise_constant(&self) -> bool {
+        matches!(self.model, Model::Scan(_))
     }
 }

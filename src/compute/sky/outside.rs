@@ -1,6 +1,6 @@
 //! Diffuse light from outside: luminances of the scaled sky, of the ground, of a skyline and of other obstructions.
 
-use super::distribution::{Distribution, Model};
+use super::distribution::Distribution;
 use super::horizontal;
 use super::open_cells::OpenCells;
 use super::scan::Scan;
@@ -295,6 +295,6 @@ impl Outside {
     /// Whether the sky's luminance is constant over each of Tregenza's 145 patches of the dome and discontinuous at
     /// their borders (measured skies).
     pub fn is_piecewise_constant(&self) -> bool {
-        matches!(self.distribution.model, Model::Scan(_))
+        self.distribution.is_piecewise_constant()
     }
 }

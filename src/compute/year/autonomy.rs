@@ -113,6 +113,7 @@ impl Exposure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::year::StepTable;
 
     fn steps(occupied: &[bool]) -> Vec<Step> {
         occupied.iter().map(|&occupied| Step { month: 1, occupied, diffuse_horizontal: 1.0 }).collect()
@@ -122,7 +123,7 @@ mod tests {
     fn borders_belong_to_the_sides_that_the_definitions_say() {
         let steps = steps(&[true; 5]);
         let values = [99.9, 100.0, 300.0, 3000.0, 3000.1];
-        let figures = Autonomy::of(&steps, Light::new(1, &values).unwrap());
+        let figures = Autonomy::of(&steps, StepTable::of_rows(1, &values).unwrap().columns(0..1).unwrap());
         assert_eq!((figures.udi_n[0], figures.udi_s[0], figures.udi_a[0], figures.udi_x[0]), (0.2, 0.2, 0.4, 0.2));
         assert_eq!((figures.da_300[0], figures.da_500[0], figures.sda_300_50), (0.6, 0.4, 1.0));
         let expected = (99.9 / 300.0 + 1.0 / 3.0 + 3.0) / 5.0;
@@ -131,7 +132,10 @@ mod tests {
 
     #[test]
     fn unoccupied_steps_count_for_the_mean_alone() {
-        let figures = Autonomy::of(&steps(&[true, false]), Light::new(2, &[400.0, 0.0, 0.0, 600.0]).unwrap());
+        let figures = Autonomy::of(
+            &steps(&[true, false]),
+            StepTable::of_rows(2, &[400.0, 0.0, 0.0, 600.0]).unwrap().columns(0..2).unwrap(),
+        );
         assert_eq!(figures.mean, [200.0, 300.0]);
         assert_eq!(figures.da_300, [1.0, 0.0]);
         assert_eq!(figures.sda_300_50, 0.5);
@@ -142,9 +146,9 @@ mod tests {
         let year = steps(&vec![true; 251]);
         let mut sun = vec![1000.0; 2 * 251];
         sun[1] = 999.9;
-        let light = Light::new(2, &sun).unwrap();
-        let dark = vec![0.0; 2 * 251];
-        let exposure = Exposure::of(&year, Light::new(2, &dark).unwrap(), light, 1.0);
+        let (sun, dark) = (StepTable::of_rows(2, &sun).unwrap(), StepTable::zeros(251, 2, 0));
+        let light = sun.columns(0..2).unwrap();
+        let exposure = Exposure::of(&year, dark.columns(0..2).unwrap(), light, 1.0);
         assert_eq!((exposure.hours_1000, exposure.ase_1000_250), (vec![0.0; 2], 0.5));
         assert_eq!(exposure.ase_hours_1000, [251.0, 250.0]);
         assert_eq!(Exposure::of(&year, light, light, 0.5).ase_1000_250, 0.0);

@@ -98,7 +98,7 @@ impl Blinds {
     /// limit), 0 uses them as given.
     pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
         let unsure = vec![if sign < 0.0 { 0.0 } else { f64::MAX }; light.places()];
-        let mut shifted = StepTable::zeros(steps.len(), light.places(), steps.len());
+        let mut shifted = StepTable::zeros(steps.len(), light.places(), 0);
         for (step, one) in worked.iter().enumerate() {
             shifted.set(step, if one.unsure && sign != 0.0 { &unsure } else { light.row(step) });
         }
@@ -169,7 +169,9 @@ mod tests {
         let light = [400.0, 100.0, 400.0, 100.0];
         let one = |closed, unsure| Worked { closed: vec![closed], unsure };
         let worked = [one(true, false), one(false, false), one(true, true), one(false, false)];
-        let of = |sign| Blinds::of(&steps, Light::new(1, &light).unwrap(), &worked, 0.5, sign);
+        let of = |sign| {
+            Blinds::of(&steps, StepTable::of_rows(1, &light).unwrap().columns(0..1).unwrap(), &worked, 0.5, sign)
+        };
         assert_eq!(of(0.0), Blinds { sda_300_50: 1.0, closed_hours: vec![1.0] });
         assert_eq!(of(-1.0), Blinds { sda_300_50: 0.0, closed_hours: vec![0.5] });
         assert_eq!(of(1.0), of(0.0));

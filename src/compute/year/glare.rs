@@ -46,6 +46,7 @@ pub fn glare(steps: &[Step], eyes: Light<'_>, sun: Option<Light<'_>>) -> Vec<Gla
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::year::StepTable;
 
     #[test]
     fn the_brightest_twentieth_is_exceeded_and_suns_are_left_out() {
@@ -53,12 +54,13 @@ mod tests {
         let values: Vec<f64> = (0..41).map(|k| 100.0 * f64::from(k)).collect();
         let mut sun = vec![0.0; 41];
         sun[40] = 1.0;
-        let light = |values| Light::new(1, values).unwrap();
-        let one = glare(&steps, light(&values), Some(light(&sun)))[0];
+        let [light, sun] = [&values, &sun].map(|values| StepTable::of_rows(1, values).unwrap());
+        let [light, sun] = [&light, &sun].map(|table| table.columns(0..1).unwrap());
+        let one = glare(&steps, light, Some(sun))[0];
         assert_eq!(one.sun_at_eye, 1);
         assert_eq!(one.dgps_5_percent, dgps(3700.0));
         // 0.35 ↔ 2669 lx: 2700 … 3900 lx are 13 of 40.
         assert_eq!(one.above, [13.0 / 40.0, 5.0 / 40.0, 0.0]);
-        assert_eq!(glare(&steps, light(&values), None)[0].dgps_5_percent, dgps(3800.0));
+        assert_eq!(glare(&steps, light, None)[0].dgps_5_percent, dgps(3800.0));
     }
 }

@@ -33,6 +33,18 @@ impl StepTable {
         Self { width: places, rows: vec![0; steps], values }
     }
 
+    /// Creates a table of rows of `places` values, one after the other. `None` if the last row is incomplete or there are
+    /// no places.
+    pub fn of_rows(places: usize, values: &[f64]) -> Option<Self> {
+        if places == 0 || !values.len().is_multiple_of(places) {
+            return None;
+        }
+        let steps = values.len() / places;
+        let mut table = Self::zeros(steps, places, steps);
+        values.chunks_exact(places).enumerate().for_each(|(step, row)| table.set(step, row));
+        Some(table)
+    }
+
     /// Returns the number of steps.
     pub fn steps(&self) -> usize {
         self.rows.len()
@@ -64,6 +76,7 @@ impl StepTable {
     /// Returns the table of `of(a, b)` for the values a of this table and b of `other`, which has as many steps and
     /// places. `of(0, 0)` must be 0.
     pub fn with(&self, other: &Self, of: impl Fn(f64, f64) -> f64) -> Self {
+        debug_assert!(of(0.0, 0.0) == 0.0 && (self.steps(), self.width) == (other.steps(), other.width));
         let filled = self.values.len().max(other.values.len()) / self.width.max(1);
         let mut table = Self::zeros(self.steps(), self.width, filled);
         let mut row = Vec::with_capacity(self.width);
@@ -78,9 +91,7 @@ impl StepTable {
     /// Returns the illuminances at the places of some columns; `None` if these are empty or reach beyond a row.
     pub fn columns(&self, places: Range<usize>) -> Option<Light<'_>> {
         let whole = !places.is_empty() && places.end <= self.width;
-        let rows = Some(&self.rows[..]);
-        let Self { width, values, .. } = self;
-        whole.then_some(Light { width: *width, first: places.start, places: places.len(), rows, values })
+        whole.then(|| Light { table: self, first: places.start, places: places.len() })
     }
 }
 
@@ -93,25 +104,15 @@ impl PartialEq for StepTable {
 
 /// Illuminances of a year at calculation points or observers' eyes ("places"): one row per step, one column per place.
 /// \[lx\]
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Light<'a> {
-    /// Number of values per row of `values`; the places are the `places` columns from `first` on.
-    width: usize,
+    table: &'a StepTable,
+    /// Column of the first place.
     first: usize,
     places: usize,
-    /// Index of the row of `values` for each step; `None`: the rows are those of the steps.
-    rows: Option<&'a [u32]>,
-    values: &'a [f64],
 }
 
 impl<'a> Light<'a> {
-    /// Creates the table from `values` \[lx\] in rows of `places` values, one row per step. `None` if the last row is
-    /// incomplete or there are no places.
-    pub fn new(places: usize, values: &'a [f64]) -> Option<Self> {
-        let whole = places > 0 && values.len().is_multiple_of(places);
-        whole.then_some(Self { width: places, first: 0, places, rows: None, values })
-    }
-
     /// Returns the number of places (calculation points or eyes) of the table.
     pub const fn places(&self) -> usize {
         self.places
@@ -119,8 +120,7 @@ impl<'a> Light<'a> {
 
     /// Returns the illuminances of one step, one per place. \[lx\]
     pub fn row(&self, step: usize) -> &'a [f64] {
-        let row = self.rows.map_or(step, |rows| rows[step] as usize);
-        &self.values[row * self.width + self.first..][..self.places]
+        &self.table.row(step)[self.first..][..self.places]
     }
 
     /// Returns the illuminance of one place in one step. \[lx\]
@@ -157,6 +157,7 @@ mod tests {
         errors.set(3, &[0.5, 0.0]);
         let more = table.with(&errors, |value, error| value + error);
         assert_eq!([more.row(2), more.row(3)], [[1.0, 3.0], [0.5, 0.0]]);
+        assert_eq!(table.with(&table, |a, b| a * b).row(2), [1.0, 9.0]);
         // Set again, and in another order.
         let mut other = StepTable::zeros(4, 2, 2);
         other.set(3, &[7.0, 7.0]);
@@ -164,5 +165,10 @@ mod tests {
         assert!(other != table);
         other.set(3, &[0.0, 0.0]);
         assert_eq!(other, table);
+        assert_eq!(StepTable::of_rows(2, &[0.0, 0.0, 0.0, 0.0, 1.0, 3.0, 0.0, 0.0]), Some(table));
+        assert_eq!(StepTable::of_rows(2, &[1.0, 2.0, 3.0]), None);
+        let mut none = StepTable::zeros(3, 0, 0);
+        none.set(1, &[]);
+        assert_eq!((none.row(1), none.values().count()), (&[][..], 0));
     }
 }

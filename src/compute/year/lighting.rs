@@ -108,6 +108,7 @@ impl Lamps {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::year::StepTable;
 
     #[test]
     fn lamps_follow_what_daylight_leaves_open() {
@@ -132,7 +133,11 @@ mod tests {
         };
         let step = |month, occupied| Step { month, occupied, diffuse_horizontal: 0.0 };
         let light = [600.0, 100.0, 0.0, 0.0];
-        let energy = lamps.energy(&[step(1, true), step(12, false)], Light::new(2, &light).unwrap(), 0.5);
+        let energy = lamps.energy(
+            &[step(1, true), step(12, false)],
+            StepTable::of_rows(2, &light).unwrap().columns(0..2).unwrap(),
+            0.5,
+        );
         assert!((energy.months[0] - 0.5e-3 * (0.6 * 0.5 + 0.4 * 10.0)).abs() < 1e-15);
         assert!((energy.months[11] - 0.5e-3 * 0.5).abs() < 1e-15);
         assert_eq!((energy.full, energy.total()), (5e-3, energy.months[0] + energy.months[11]));

@@ -105,6 +105,7 @@ impl Provision {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compute::year::StepTable;
 
     #[test]
     fn both_readings_of_a_room_whose_halves_are_lit_in_turn() {
@@ -116,7 +117,7 @@ mod tests {
         for (k, row) in values.chunks_mut(2).take(4).enumerate() {
             row.copy_from_slice(if k < 2 { &[400.0, 0.0] } else { &[0.0, 400.0] });
         }
-        let provision = Provision::of(&steps, Light::new(2, &values).unwrap());
+        let provision = Provision::of(&steps, StepTable::of_rows(2, &values).unwrap().columns(0..2).unwrap());
         assert_eq!(provision.median_diffuse, 2.5);
         let least = provision.levels[0];
         assert_eq!(least.target, Reached { area_by_point: 1.0, time_by_hour: 1.0 });

@@ -4,7 +4,7 @@ use crate::compute::angle::{Bearing, wrap_two_pi};
 use crate::compute::direction::Dir;
 use crate::drawing::chart;
 use crate::drawing::colours::{ColourMap, ColourScale, Inks, mixed};
-use crate::drawing::hemisphere::{Round, dome_point, on_halo};
+use crate::drawing::hemisphere::{Round, dome_point, on_halo, side_without};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};
 use crate::drawing::ticks::si;
 use crate::drawing::{Drawing, Frame, Shape, legend};
@@ -47,11 +47,17 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range:
         if (bearing - facade).cos() >= 0.0 { full } else { mixed(full, inks.face, 0.62) }
     };
     drawing.shapes.extend(round.field(colour));
+    let place = match &subject.scene.weather {
+        Some(weather) => Some((weather.hour.sun.altitude(), weather.hour.sun.bearing().radians())),
+        None => sun_of_site(&subject.file).map(|(altitude, bearing)| (altitude, bearing.to_radians())),
+    };
+    let up = place.filter(|(altitude, _)| *altitude >= 0.0);
+    let side = side_without(up);
     for degrees in [30.0_f64, 60.0] {
         let r = round.radius * (1.0 - degrees / 90.0);
         drawing.add(Shape::ring(round.centre, r, inks.outline, 0.6));
         let aside = r * std::f64::consts::FRAC_1_SQRT_2;
-        let at = [round.centre[0] + aside, round.centre[1] + aside];
+        let at = [round.centre[0] + side * aside, round.centre[1] + aside];
         drawing.shapes.extend(on_halo(at, &format!("{degrees:.0}°"), inks));
     }
     let skyline = scene.outside.skyline_altitude();
@@ -67,11 +73,6 @@ pub(super) fn sky(drawing: &mut Drawing, frame: Frame, subject: &Subject, range:
         drawing.add(Shape::text(round.place([far * x, far * y]), word, inks.ink));
     }
     legend::scale(drawing, below, &scale, "cd/m²", inks);
-    let place = match &subject.scene.weather {
-        Some(weather) => Some((weather.hour.sun.altitude(), weather.hour.sun.bearing().radians())),
-        None => sun_of_site(&subject.file).map(|(altitude, bearing)| (altitude, bearing.to_radians())),
-    };
-    let up = place.filter(|(altitude, _)| *altitude >= 0.0);
     if let Some((altitude, bearing)) = up {
         let at = round.place(dome_point(altitude, bearing));
         drawing.add(Shape::dot(at, 7.0, inks.sun));

@@ -157,7 +157,7 @@ fn dark(climate: &Climate) -> Year {
         movements: Vec::new(),
         indoor: None,
         chosen: (0..steps).collect(),
-        light: Light { sun: Some(StepTable::zeros(steps, places, 0)), ..Light::dark(steps, places, 0, 0) },
+        light: Light { sun: Some(StepTable::zeros(steps, places, 0)), ..Light::zeros(steps, places, 0, 0) },
         retracted_sun: None,
         direct_sun: true,
         lm83: None,

@@ -141,14 +141,17 @@ pub struct SkyKeys {
     pub skyline: Option<SkylineKeys>,
 }
 
+/// Direct and diffuse irradiance on the horizontal plane with which a Perez sky begins. \[W/m²\]
+pub const USUAL_IRRADIANCES: [f64; 2] = [300.0, 120.0];
+
 impl SkyKeys {
-    /// Changes the sky model: removes the keys of the former one, and gives those that the new one needs usual values.
+    /// Changes the sky model: removes the keys of the former one, and gives those that the new one needs usual values;
+    /// only the file of a measured sky must still be set.
     pub fn choose(&mut self, model: SkyModelKey) {
         self.model = model;
         self.cie_type = (model == SkyModelKey::Cie).then_some(12);
-        let perez = model == SkyModelKey::Perez;
-        self.direct_horizontal_irradiance = perez.then_some(300.0);
-        self.diffuse_horizontal_irradiance = perez.then_some(120.0);
+        let [direct, diffuse] = USUAL_IRRADIANCES.map(|value| (model == SkyModelKey::Perez).then_some(value));
+        (self.direct_horizontal_irradiance, self.diffuse_horizontal_irradiance) = (direct, diffuse);
         self.file = None;
         self.weather = None;
         self.light = LightKey::default();

@@ -45,19 +45,21 @@ pub struct Light {
 }
 
 impl Light {
-    /// Creates the illuminances of dark steps. `lit`: number of steps that will be set.
-    pub(crate) fn dark(steps: usize, places: usize, lit: usize, sets: usize) -> Self {
+    /// Creates illuminances of zero for `steps` chosen steps, `lit` of which are set later. `sets`: number of different
+    /// combinations of states that occur in these.
+    pub(crate) fn zeros(steps: usize, places: usize, lit: usize, sets: usize) -> Self {
         let zeros = || StepTable::zeros(steps, places, lit);
         Self { places, values: zeros(), errors: zeros(), sun: None, sets, dark: steps - lit }
     }
 
-    /// Sets the illuminances of a step with their errors. `sun`: those by direct sun alone; `None` if not requested.
-    pub(super) fn put(&mut self, step: usize, values: &[f64], errors: &[f64], sun: Option<&[f64]>) {
-        self.values.set(step, values);
-        self.errors.set(step, errors);
+    /// Sets the illuminances in a chosen step (`row`: its index among them) with their errors. `sun`: those by direct
+    /// sun alone; `None` if nothing transmits it, or if not requested.
+    pub(super) fn put(&mut self, row: usize, values: &[f64], errors: &[f64], sun: Option<&[f64]>) {
+        self.values.set(row, values);
+        self.errors.set(row, errors);
         if let Some(sun) = sun {
             let (steps, places, lit) = (self.values.steps(), self.places, self.values.steps() - self.dark);
-            self.sun.get_or_insert_with(|| StepTable::zeros(steps, places, lit)).set(step, sun);
+            self.sun.get_or_insert_with(|| StepTable::zeros(steps, places, lit)).set(row, sun);
         }
     }
 }
@@ -117,7 +119,7 @@ pub(super) fn light(
         }
     }
     let lit: usize = groups.values().map(Vec::len).sum();
-    let mut light = Light::dark(chosen.len(), places, lit, groups.len());
+    let mut light = Light::zeros(chosen.len(), places, lit, groups.len());
     let mut done = 0;
     for (set, rows) in groups {
         let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
@@ -160,6 +162,7 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
         Ok(question.steps.even_outside(k)?.1.map(|sun| all.at(&sun)))
     };
     let mut table = StepTable::zeros(list.len(), all.places(), counts.len());
+    // In blocks: all rows twice would be as much memory as the table itself.
     for steps in counts.chunks(PIECES * TOGETHER) {
         let found: Vec<Option<Vec<f64>>> = steps.par_iter().map(at).collect::<Result<_, StudyError>>()?;
         for (&k, sun) in steps.iter().zip(&found) {

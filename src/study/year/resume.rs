@@ -248,7 +248,7 @@ pub(super) fn light(
             block = ((part.len() as f64 * share) as usize).max(FIRST);
         }
     }
-    let mut light = Light::dark(chosen.len(), places, all, count);
+    let mut light = Light::zeros(chosen.len(), places, all, count);
     for (row, k) in chosen.iter().enumerate() {
         let Some(hour) = kept.hours.get(k).filter(|hour| hour.values.len() == places) else { continue };
         light.put(row, &hour.values, &hour.errors, hour.sun.as_deref());

@@ -7,7 +7,7 @@ use crate::app::scene::follow;
 use crate::app::theme;
 use crate::app::typed_path::typed_path;
 use crate::compute::sky::availability::Cover;
-use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey};
+use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, USUAL_IRRADIANCES};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};
 use crate::texts::{Text, fixed, scene as texts};
 use egui::{ComboBox, TextEdit, Ui};
@@ -159,15 +159,10 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
             combo.response.accessible_name(texts::CIE_TYPE.get());
         }
         SkyModelKey::Perez => {
-            optional(ui, texts::DIRECT_HORIZONTAL, " W/m²", &mut sky.direct_horizontal_irradiance, 300.0, 0.0..=1100.0);
-            optional(
-                ui,
-                texts::DIFFUSE_HORIZONTAL,
-                " W/m²",
-                &mut sky.diffuse_horizontal_irradiance,
-                120.0,
-                0.0..=600.0,
-            );
+            let [direct, diffuse] = USUAL_IRRADIANCES;
+            let (of_sun, of_sky) = (&mut sky.direct_horizontal_irradiance, &mut sky.diffuse_horizontal_irradiance);
+            optional(ui, texts::DIRECT_HORIZONTAL, " W/m²", of_sun, direct, 0.0..=1100.0);
+            optional(ui, texts::DIFFUSE_HORIZONTAL, " W/m²", of_sky, diffuse, 0.0..=600.0);
         }
         SkyModelKey::Scan => {
             let mut path = sky.file.as_ref().map_or_else(String::new, |file| file.display().to_string());
@@ -177,11 +172,11 @@ fn model(ui: &mut Ui, sky: &mut SkyKeys, width: f32) {
                 sky.file = Some(typed_path(&path));
             }
         }
+        SkyModelKey::Uniform => {}
         SkyModelKey::Weather => {
             let file = sky.weather.as_ref().map_or_else(String::new, |file| file.display().to_string());
             ui.label(texts::weather_at(file));
         }
-        _ => {}
     }
 }
 
