@@ -4,6 +4,7 @@
 use super::backend::{StudyEngine, open_shelf};
 use super::command::Command;
 use super::dialogs::NativeDialogs;
+use super::jobs::Lane;
 use super::offer::pressed;
 use super::restoring::sessions_folder;
 use super::settings::MEGABYTE;
@@ -64,7 +65,8 @@ impl App {
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();
         // A product that is being stored is not yet a step by itself: its step also selects it.
-        if !dragging && self.adding.is_empty() {
+        let storing = !self.adding.is_empty() && self.jobs.busy(Lane::Store);
+        if !dragging && !storing {
             self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);
         }
     }

@@ -299,6 +299,9 @@ fn state_line(ui: &mut Ui, import: &Import, row: Row, product: &Proposed, comman
     };
     for (cell, words, colour) in [(cells[3], tau, palette.text), (cells[4], counts(found), colour)] {
         let galley = theme::one_line(ui.painter(), &words, FontId::proportional(13.0), colour, cell.width());
+        if galley.elided {
+            ui.interact(cell, ui.scope_id().with((row, "findings")), Sense::hover()).on_hover_text(&words);
+        }
         ui.painter().galley(pos2(cell.left(), cell.center().y - 0.5 * galley.size().y), galley, colour);
     }
 }
