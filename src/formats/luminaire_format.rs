@@ -98,7 +98,9 @@ mod tests {
         for format in LuminaireFormat::ALL {
             let bytes = format.write(&luminaire);
             let read = format.read(&bytes).unwrap();
-            assert_eq!((&*read.text.name, &read.intensity), ("Downlight 7", &luminaire.intensity));
+            assert_eq!(read.text.name, luminaire.text.name);
+            // EULUMDAT has intensities per lamp flux, which has a limited number of digits.
+            assert!(read.intensity.iter().zip(&luminaire.intensity).all(|(a, b)| (a - b).abs() <= 1e-4));
             assert!(LuminaireFormat::ALL.into_iter().filter(|one| one.may_be(&bytes)).eq([format]));
             assert_eq!(extension_of(&bytes), format.extension());
             let name = format!("a{}", format.extension().to_uppercase());
