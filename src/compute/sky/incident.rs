@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::f64::consts::PI;
 
 /// Relative accuracy of the illuminance from every cell. Held by
-/// `tests/compute/sky.rs::incident_cells_sum_to_the_facade`, to 1e-5 of their sum.
+/// `tests/compute/sky.rs::incident_cells_sum_to_the_facade`, to 4e-6.
 const RELATIVE: f64 = 1e-6;
 
 /// Computes the illuminances E_i = ∫_cell L cosθ dω of an aperture from every cell of `basis` by sky, ground and

@@ -16,18 +16,28 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Computes ∫ L · weight dω over a region for the luminance L of sky, skyline and ground, without obstructions.
 pub(super) fn integrate_region(outside: &Outside, region: &Region, weight: Weight, tolerance: Tolerance) -> Estimate {
+    let knots = knots(outside, region);
+    let sky = if outside.is_piecewise_constant() {
+        scan_region::integrate_scan(outside, region, weight, &knots, tolerance)
+    } else {
+        let of_ring = |ring: Region| {
+            let knots = self::knots(outside, &ring);
+            knots.windows(2).map(|pair| sky_strip(outside, &ring, (pair[0], pair[1]), weight, tolerance)).sum()
+        };
+        rings(outside, region).map(of_ring).sum()
+    };
+    sky + constant_parts(outside, region, weight, &knots, tolerance)
+}
+
+/// Returns the azimuths between which horizon and skyline begin, end or leave the region nowhere: a rising list from one
+/// side of the region to the other. \[rad\]
+fn knots(outside: &Outside, region: &Region) -> Vec<f64> {
     let mut inner = Vec::new();
     region.cut_knots(0.0, &mut inner);
     if outside.skyline_sine > 0.0 {
         region.cut_knots(outside.skyline_sine, &mut inner);
     }
-    let knots = region.sorted(inner);
-    let sky = if outside.is_piecewise_constant() {
-        scan_region::integrate_scan(outside, region, weight, &knots, tolerance)
-    } else {
-        knots.windows(2).map(|pair| sky_strip(outside, region, (pair[0], pair[1]), weight, tolerance)).sum()
-    };
-    sky + constant_parts(outside, region, weight, &knots, tolerance)
+    region.sorted(inner)
 }
 
 /// Computes the integral of ground and skyline, of constant luminance each: closed form in θ, 1-D in φ.
@@ -55,36 +65,30 @@ fn constant_parts(outside: &Outside, region: &Region, weight: Weight, knots: &[f
 /// (0.07 rad) from the pole.
 const NEAR_POLE: f64 = 0.1;
 
-/// Computes the integral of the sky's luminance over a strip of azimuths between knots. Around a pole near the sun the
-/// luminance changes within a small part of the strip, which one quadrature rule could miss; the strip is then divided
-/// into pieces that grow with the distance from the pole.
-fn sky_strip(outside: &Outside, region: &Region, phi: (f64, f64), weight: Weight, tolerance: Tolerance) -> Estimate {
+/// Divides a region around a pole near the sun: there the luminance changes within a small part of the region, which one
+/// quadrature rule could miss. The rings grow with the distance from the pole.
+fn rings(outside: &Outside, region: &Region) -> impl Iterator<Item = Region> {
     let sun = outside.sun_direction().map_or(PI, |sun| region.frame.angles(sun.vector()).0);
-    if !(1e-9..NEAR_POLE).contains(&sun) {
-        return sky_piece(outside, region, phi, region.theta, weight, tolerance);
-    }
     let mut cuts = vec![region.theta.0];
-    let grown = std::iter::successors(Some(3.0 * sun), |cut| Some(3.0 * cut)).take_while(|cut| *cut < region.theta.1);
-    cuts.extend(grown.filter(|cut| *cut > region.theta.0));
+    if (1e-9..NEAR_POLE).contains(&sun) {
+        let grown = std::iter::successors(Some(3.0 * sun), |cut| Some(3.0 * cut));
+        cuts.extend(grown.take_while(|cut| *cut < region.theta.1).filter(|cut| *cut > region.theta.0));
+    }
     cuts.push(region.theta.1);
-    cuts.windows(2).map(|pair| sky_piece(outside, region, phi, (pair[0], pair[1]), weight, tolerance)).sum()
+    let region = *region;
+    (1..cuts.len()).map(move |k| Region { theta: (cuts[k - 1], cuts[k]), ..region })
 }
 
-/// Computes the integral of the sky's luminance over the part of a strip between two angles from the pole.
-fn sky_piece(
+/// Computes the integral of the sky's luminance over a strip of a region: its azimuths between two knots.
+fn sky_strip(
     outside: &Outside,
     region: &Region,
     (phi_min, phi_max): (f64, f64),
-    (theta_min, theta_max): (f64, f64),
     weight: Weight,
     tolerance: Tolerance,
 ) -> Estimate {
-    let limits = |phi: f64| {
-        let (low, high) = region.above(phi, outside.skyline_sine)?;
-        let (low, high) = (low.max(theta_min), high.min(theta_max));
-        (low < high).then_some((low, high))
-    };
-    if outside.scale == 0.0 || region.above(0.5 * (phi_min + phi_max), outside.skyline_sine).is_none() {
+    let limits = |phi: f64| region.above(phi, outside.skyline_sine);
+    if outside.scale == 0.0 || limits(0.5 * (phi_min + phi_max)).is_none() {
         return Estimate::default();
     }
     let width = phi_max - phi_min;
