@@ -9,11 +9,11 @@
 //! result.
 
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
+use cfs::app::catalogue::shelf::Shelf;
 use cfs::app::command::Command;
-use cfs::app::error::AppError;
-use cfs::app::moment;
-use cfs::app::shelf::Shelf;
+use cfs::app::results::backend::{StudyEngine, memory_shelf, open_shelf};
+use cfs::app::scene::moment;
+use cfs::app::shell::error::AppError;
 use egui::{
     Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, RawInput, Rect, TouchPhase, pos2, vec2,
 };
@@ -78,7 +78,7 @@ impl Window {
         let start = Instant::now();
         loop {
             self.frame(vec![]);
-            let there = self.app.results.room.value.is_some() && self.app.results.lid.value.is_some();
+            let there = self.app.shell.results.room.value.is_some() && self.app.shell.results.lid.value.is_some();
             if there && !self.app.busy() {
                 return Ok(());
             }
@@ -123,10 +123,10 @@ fn search(window: &mut Window) -> anyhow::Result<Vec<Duration>> {
     window.frame(vec![key(false)]);
     let mut times = Vec::new();
     for letter in "venetian".chars() {
-        let before = window.app.state.found.clone();
+        let before = window.app.shell.state.found.clone();
         let start = Instant::now();
         window.frame(vec![Event::Text(letter.to_string())]);
-        while Arc::ptr_eq(&before, &window.app.state.found) {
+        while Arc::ptr_eq(&before, &window.app.shell.state.found) {
             anyhow::ensure!(start.elapsed() < TIMEOUT, "no answer to a letter within {TIMEOUT:?}");
             std::thread::sleep(Duration::from_millis(1));
             window.frame(vec![]);
@@ -154,10 +154,10 @@ fn main() -> anyhow::Result<()> {
     window.frame(vec![Event::PointerMoved(at), press]);
     let (mut logic, mut draw, mut tessellate, mut ours) = (vec![], vec![], vec![], vec![]);
     let mut tiles: BTreeMap<&'static str, Vec<Duration>> = BTreeMap::new();
-    let (mut triangles, mut moved) = (0, window.app.results.lid.revision);
+    let (mut triangles, mut moved) = (0, window.app.shell.results.lid.revision);
     let mut results = 0;
     for _ in 0..frames {
-        let mut scene = window.app.state.document.scene.clone();
+        let mut scene = window.app.shell.state.document.scene.clone();
         moment::step(&mut scene, 0, STEP);
         window.app.apply(Command::Scene(Box::new(scene)));
         let frame = window.frame(vec![]);
@@ -169,8 +169,8 @@ fn main() -> anyhow::Result<()> {
         for (tile, time) in window.app.tile_times() {
             tiles.entry(tile.title).or_default().push(*time);
         }
-        results += u64::from(moved != window.app.results.lid.revision);
-        moved = window.app.results.lid.revision;
+        results += u64::from(moved != window.app.shell.results.lid.revision);
+        moved = window.app.shell.results.lid.revision;
         // Leaves other threads time to work, as a display with 60 frames per second does.
         std::thread::sleep(Duration::from_millis(8));
     }
@@ -188,6 +188,6 @@ fn main() -> anyhow::Result<()> {
     window.settle()?;
     println!("scrolling      {}", milliseconds(scroll(&mut window, frames)));
     println!("a letter       {}", milliseconds(search(&mut window)?));
-    println!("products       {} found", window.app.state.found.entries.len());
+    println!("products       {} found", window.app.shell.state.found.entries.len());
     Ok(())
 }

@@ -77,11 +77,12 @@
 //! | add or change a label or message of the window | a line in [`texts`], in both languages |
 //! | add a subcommand | a file in [`cli`] named like it |
 //! | change the guide | the page in `assets/guide`; `tests/cli/documents.rs` says how its examples are tested |
-//! | add a kind of obstruction to the window's commands | [`app::outside`] |
+//! | add a kind of obstruction to the window's commands | [`app::scene::outside`] |
 //! | change the tour | [`app::tour`] |
-//! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in [`app::apply`] |
+//! | add a feature to the window | a folder in [`app`] with its state, its commands and what they do, its field in [`app::window::App`] |
+//! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in its feature, to which [`app::apply`] hands it |
 //! | change which imported files belong to one product | [`catalogue::Grouping`] and its file |
-//! | extend the report on an internal error | [`study::fault`]; the window's part in [`app::faults`] |
+//! | extend the report on an internal error | [`study::fault`]; the window's part in [`app::session`] |
 //! | store more from one start to the next | [`app::session`], or [`app::state::Settings`] |
 //! | add a picture | a file in [`app::views`], shared axes in [`app::paint`] |
 //! | add a tile | a picture, a file in [`app::tiles`] that prepares its data, its entry in [`app::tiles::TILES`] |

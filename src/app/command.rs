@@ -1,24 +1,23 @@
 //! All commands of the window in one enum. Drawing functions return them, [`super::apply`] executes them, and
 //! [`super::offer`] lists those in menus, command palette and keyboard shortcuts.
 
-use super::arrange::Arrange;
-use super::catalogue_command::CatalogueCommand;
-use super::choose::ChooseAct;
 use super::compare::Act;
-use super::export_choices::Choices;
 use super::goniophotometer::Setup;
-use super::import::{ImportFields, StateWords};
-use super::import_steps::Step;
-use super::jobs::Lane;
-use super::language::LanguageChoice;
-use super::outside;
-use super::room_look::{RoomLook, RoomView};
-use super::shelf::Query;
+use super::import::{ImportFields, StateWords, Step};
+use super::rank::ChooseAct;
 use super::state::{PathUse, Sheet, Tile};
-use super::text_size::TextSize;
-use super::theme::ThemeChoice;
 use super::tour::TourAct;
 use super::year::YearAct;
+use crate::app::catalogue::CatalogueCommand;
+use crate::app::catalogue::shelf::Query;
+use crate::app::display::language::LanguageChoice;
+use crate::app::display::text_size::TextSize;
+use crate::app::display::theme::ThemeChoice;
+use crate::app::export::choices::Choices;
+use crate::app::scene::outside;
+use crate::app::scene::room_look::{RoomLook, RoomView};
+use crate::app::shell::jobs::Lane;
+use crate::app::tiles::arrange::Arrange;
 use crate::catalogue::Grouping;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Repair;

@@ -1,45 +1,191 @@
-//! Work of one frame of the window: stores results of jobs, handles keys and dropped files, draws, executes commands.
-//! It never waits.
+//! Work of the window: created from its features, one frame after the other, closed. It never waits.
 
-use super::backend::{StudyEngine, open_shelf};
 use super::command::Command;
-use super::dialogs::NativeDialogs;
-use super::jobs::Lane;
+use super::display::font_search::FontSearch;
+use super::display::fonts::no_fonts;
+use super::display::text_sizing::follow_text_size;
+use super::display::{right_to_left, theme};
 use super::offer::pressed;
-use super::restoring::sessions_folder;
-use super::settings::MEGABYTE;
-use super::text_size::SMALLEST_WINDOW;
-use super::window::{App, Services};
-use super::window_place::{bring_on_screen, repair_saved};
-use super::{fonts, language, panels, right_to_left, theme, title};
+use super::results::backend;
+use super::results::engine::Engine;
+use super::session::{Kept, Open, Put, say_restored};
+use super::shell::dialogs::NoDialogs;
+use super::shell::error::AppError;
+use super::shell::jobs::{JobView, Lane};
+use super::shell::settings::MEGABYTE;
+use super::shell::{Services, Shell};
+use super::state::{Settings, State, Tile};
+use super::window::App;
+use super::{panels, title};
+use crate::app::catalogue::shelf::Shelf;
 use crate::catalogue::SourceFile;
-use crate::study::{Library, fault};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Maximum time that a closing window waits for data that are still being stored.
+const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
 
 impl App {
+    /// Creates a window, without drawing it.
+    pub fn new(services: Services, settings: Settings) -> Self {
+        Self {
+            shell: Shell::new(services, State::new(settings)),
+            products: Default::default(),
+            built_in: Default::default(),
+            gallery: Default::default(),
+            imports: Default::default(),
+            goniophotometer: Default::default(),
+            computations: Default::default(),
+            forms: Default::default(),
+            examined: Default::default(),
+            year: Default::default(),
+            ranking: Default::default(),
+            compare: Default::default(),
+            export: Default::default(),
+            session: Default::default(),
+            palette: Default::default(),
+            tour: Default::default(),
+            fonts: FontSearch::new(no_fonts),
+            accuracy_view: Default::default(),
+            section_view: Default::default(),
+            states_view: Default::default(),
+            weather_view: Default::default(),
+            in_field: false,
+            installed: false,
+            shown_title: String::new(),
+            opened: Default::default(),
+        }
+    }
+
+    /// Creates a window for tests, with a catalogue in memory and without file dialogs; nothing on disk is read or
+    /// written.
+    pub fn for_test(engine: Arc<dyn Engine>) -> Self {
+        Self::with_shelf(engine, backend::ideals_shelf)
+    }
+
+    /// Creates a window for tests, with the catalogue that `open` returns and without file dialogs.
+    pub fn with_shelf(engine: Arc<dyn Engine>, open: fn() -> Result<Arc<dyn Shelf>, AppError>) -> Self {
+        Self::new(
+            Services { open_catalogue: Arc::new(open), read: SourceFile::read, dialogs: Arc::new(NoDialogs), engine },
+            Settings::default(),
+        )
+    }
+
+    /// Whether a job is running in a lane.
+    pub fn works_in(&self, lane: Lane) -> bool {
+        self.shell.jobs.busy(lane)
+    }
+
+    /// Whether anything is still being read or computed.
+    pub fn busy(&self) -> bool {
+        let waits = self.shell.has_pending_changes() || self.built_in.is_due() || self.export.awaits_lid();
+        waits || !self.shell.jobs.views().is_empty()
+    }
+
+    /// Whether all visible results are complete: no computation for them is running or still to be started.
+    pub(super) fn is_complete(&self) -> bool {
+        self.computations.is_complete(&self.shell, self.export.awaits_lid())
+    }
+
+    /// Returns the time that each visible tile took to be drawn in the last frame, for performance measurements.
+    pub fn tile_times(&self) -> &[(Tile, Duration)] {
+        &self.shell.bench.times
+    }
+
+    /// Returns what a session stores of the window.
+    pub const fn content(&self) -> Open<'_> {
+        Open { state: &self.shell.state, imports: &self.imports, goniophotometer: &self.goniophotometer }
+    }
+
+    /// Sets the folder to which reports on internal errors are written.
+    pub fn report_faults(&mut self, folder: Option<&Path>) {
+        self.session.report_faults(folder);
+    }
+
+    /// Restores a session in the window, but for the import, whose files have to be read again.
+    ///
+    /// # Errors
+    /// Returns a message if the scene cannot be read; everything else is restored nevertheless.
+    pub fn restore(&mut self, kept: &Kept) -> Result<(), String> {
+        let Self { shell, imports, goniophotometer, .. } = self;
+        kept.put_into(Put { state: &mut shell.state, imports, goniophotometer })
+    }
+
+    /// Starts storing the session in a folder, and restores the session found there. `take_up`: whether to restore also
+    /// the session of a window that was not closed properly, with a message. `folder`: `None` if the user has no such
+    /// folder; then a warning is shown.
+    pub fn begin_session(&mut self, folder: Option<&Path>, take_up: bool) {
+        let Some((found, folder)) = self.session.begin(&mut self.shell, folder, take_up).zip(folder) else { return };
+        let put = found.kept.as_ref().map(|kept| self.restore(kept));
+        // In the language that was kept.
+        let _speaking = self.shell.speak();
+        for problem in &found.problems {
+            self.shell.toasts.warning(problem.to_string());
+        }
+        match put {
+            Some(put) => {
+                self.shell.begin_history();
+                say_restored(&mut self.shell.toasts, &found, &put, folder);
+                if let Some(import) = found.kept.and_then(|kept| kept.import) {
+                    self.imports.read_again(&mut self.shell, import.paths.clone(), import.grouping, Some(import));
+                }
+            }
+            // Whoever has never had a window open is offered the tour, once.
+            None if found.problems.is_empty() => self.tour.offer(),
+            None => {}
+        }
+    }
+
+    /// Passes the current session to the thread that stores it, if it has changed. Never waits.
+    fn keep_session(&mut self) {
+        let Self { session, shell, imports, goniophotometer, .. } = self;
+        session.keep(Open { state: &shell.state, imports, goniophotometer }, &mut shell.toasts);
+    }
+
+    /// Ends the window: waits until data being stored or written are complete, and leaves the session for the next
+    /// start.
+    pub fn close(&mut self) {
+        let start = Instant::now();
+        let storing =
+            |app: &Self| app.shell.jobs.busy(Lane::Store) || app.shell.has_pending_changes() || app.export.is_writing();
+        while storing(self) && self.shell.state.shelf().is_some() && start.elapsed() < CLOSE_TIMEOUT {
+            self.poll();
+            self.write_exports();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        let Self { session, shell, imports, goniophotometer, .. } = self;
+        session.close(Open { state: &shell.state, imports, goniophotometer });
+    }
+
+    fn write_exports(&mut self) {
+        let is_complete = self.is_complete();
+        self.export.write_due(&mut self.shell, is_complete);
+    }
+
     /// Prepares a frame before drawing: stores results of jobs, handles keys and dropped files, starts jobs. Never
     /// waits.
     pub fn logic(&mut self, ctx: &egui::Context) {
-        let _speaking = self.speak();
+        let _speaking = self.shell.speak();
         if !self.installed {
             self.installed = true;
-            self.ctx = ctx.clone();
+            self.shell.ctx = ctx.clone();
             theme::install(ctx);
-            ctx.add_font_provider(self.missing_characters.clone());
+            self.fonts.install(ctx);
             ctx.on_end_pass("right_to_left", Arc::new(right_to_left::reorder));
-            self.state.settings.theme.apply(ctx);
+            self.shell.state.settings.theme.apply(ctx);
             // The window's own keys do it, within bounds.
             ctx.options_mut(|options| options.zoom_with_keyboard = false);
-            self.open_catalogue();
+            self.shell.open_catalogue();
         }
-        self.follow_text_size(ctx);
-        let limit = self.state.settings.store_limit.saturating_mul(MEGABYTE);
-        self.services.engine.store().into_iter().for_each(|store| store.set_limit(limit));
+        follow_text_size(&self.shell, ctx);
+        let limit = self.shell.state.settings.store_limit.saturating_mul(MEGABYTE);
+        self.shell.services.engine.store().into_iter().for_each(|store| store.set_limit(limit));
         self.poll();
         // Another window or the command line may have changed the catalogue meanwhile.
         if ctx.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {
-            self.search();
+            self.shell.search();
         }
         self.write_exports();
         for command in pressed(ctx) {
@@ -50,45 +196,52 @@ impl App {
         if !dropped.is_empty() {
             self.apply(Command::OpenPaths(dropped));
         }
-        self.follow_tour();
-        self.refresh();
-        self.ask_due();
-        self.ask_peaks();
-        self.ask_data_looks();
-        self.ask_weather();
-        self.follow_ranking();
-        self.ask_compared();
-        self.ask_preview();
-        self.ask_pictures();
-        self.ask_findings();
-        self.fill_catalogue();
+        self.ask();
         let dragging = ctx.input(|input| input.pointer.any_down());
         self.keep_session();
         // A product that is being stored is not yet a step by itself: its step also selects it.
-        let storing = !self.adding.is_empty() && self.jobs.busy(Lane::Store);
+        let storing = self.products.is_adding() && self.shell.jobs.busy(Lane::Store);
         if !dragging && !storing {
-            self.undoer.feed_state(ctx.input(|input| input.time), &self.state.document);
+            self.shell.undoer.feed_state(ctx.input(|input| input.time), &self.shell.state.document);
         }
+    }
+
+    /// Starts the jobs whose results are needed now.
+    fn ask(&mut self) {
+        let shell = &mut self.shell;
+        self.tour.follow(shell);
+        self.computations.refresh(shell, &mut self.built_in);
+        self.computations.ask_due(shell, self.export.awaits_lid());
+        self.computations.ask_peaks(shell);
+        self.forms.ask(shell);
+        self.year.ask_weather(shell);
+        self.ranking.follow(shell);
+        self.compare.ask(shell);
+        self.export.ask_preview(shell);
+        self.gallery.ask(shell);
+        self.examined.ask(shell);
+        self.built_in.fill(shell);
     }
 
     /// Draws one frame and executes the commands that it returns.
     pub fn draw(&mut self, ui: &mut egui::Ui) {
-        let _speaking = self.speak();
-        if self.opened.take(&self.state, ui.ctx().cumulative_frame_nr()) {
+        let _speaking = self.shell.speak();
+        let state = &mut self.shell.state;
+        if self.opened.take(state, ui.ctx().cumulative_frame_nr()) {
             // However it was opened, who opens a sheet wants to type.
-            self.state.wants_keyboard = self.state.sheet.is_some();
-            self.state.focus_search &= self.state.sheet.is_none();
+            state.wants_keyboard = state.sheet.is_some();
+            state.focus_search &= state.sheet.is_none();
         }
         let commands = panels::show(ui, self);
         for command in commands {
             self.apply(command);
             ui.ctx().request_repaint();
         }
-        self.ask_fonts();
+        self.fonts.ask(&mut self.shell);
         self.in_field = ui.ctx().memory(|memory| memory.focused().is_some());
         // Now, not with the next frame: a slow one would take its time from the second that may be lost.
         self.keep_session();
-        let title = title::title(&self.state);
+        let title = title::title(&self.shell.state);
         if title != self.shown_title {
             ui.ctx().send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
             self.shown_title = title;
@@ -96,99 +249,16 @@ impl App {
     }
 }
 
-/// Key under which earlier versions stored their settings.
-const SETTINGS_KEY: &str = "cfs-settings";
-
-impl eframe::App for App {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
-        self.logic(ctx);
-    }
-
-    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
-        self.draw(ui);
-    }
-
-    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
-        self.close();
-    }
-}
-
-/// Name by which the desktop identifies the window, and name of the folder with its stored state.
-const APP_ID: &str = "cfs";
-
-/// Icon of the window, for desktops without our desktop file.
-const ICON: &[u8] = include_bytes!("../../assets/desktop/cfs-256.png");
-
-/// Opens the window and returns when it is closed. `catalogue`: path of the catalogue, or `None` for the user's own;
-/// `open`: files to read at once.
-pub fn run(catalogue: Option<&Path>, open: Vec<PathBuf>) -> anyhow::Result<()> {
-    let catalogue = catalogue.map(Path::to_path_buf);
-    let sessions = sessions_folder();
-    let icon =
-        eframe::icon_data::from_png_bytes(ICON).map_err(|error| anyhow::anyhow!("the window's icon: {error}"))?;
-    if let Some(folder) = eframe::storage_dir(APP_ID) {
-        repair_saved(&folder.join("app.ron"));
-    }
-    let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_inner_size([1280.0, 720.0])
-            .with_min_inner_size(SMALLEST_WINDOW)
-            .with_title("cfs")
-            .with_icon(icon)
-            .with_app_id(APP_ID),
-        ..Default::default()
-    };
-    eframe::run_native(
-        "cfs",
-        options,
-        Box::new(move |cc| {
-            bring_on_screen(cc);
-            let settings = cc
-                .storage
-                .and_then(|storage| storage.get_string(SETTINGS_KEY))
-                .and_then(|text| serde_json::from_str(&text).ok())
-                .unwrap_or_default();
-            let library = Arc::new(Library::with_catalogue(catalogue.as_deref()));
-            let services = Services {
-                open_catalogue: Arc::new(move || open_shelf(catalogue.as_deref())),
-                read: SourceFile::read,
-                dialogs: Arc::new(NativeDialogs::listening()),
-                engine: Arc::new(StudyEngine::new(library.clone())),
-            };
-            let mut app = App::new(services, settings);
-            app.library = library;
-            app.desktop_language = language::of_desktop();
-            app.find_fonts = fonts::system_fonts;
-            app.report_faults(fault::folder().as_deref());
-            app.begin_session(sessions.as_deref(), open.is_empty());
-            app.logic(&cc.egui_ctx);
-            app.apply(Command::OpenPaths(open));
-            Ok(Box::new(app))
-        }),
-    )
-    .map_err(|error| anyhow::anyhow!(no_window(&error.to_string())))
-}
-
-/// Returns the message that no window can be opened, with the reason, and with what works without a window.
-fn no_window(error: &str) -> String {
-    let placed = error.split_once("os error at ").and_then(|(_, rest)| rest.split_once(": "));
-    let reason = placed.map_or(error, |(_, reason)| reason).trim_end_matches('.');
-    format!("the window cannot be opened: {reason}; without a display use the commands that cfs --help lists")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn without_a_display_one_line_names_the_way_out() {
-        let of_winit =
-            "winit EventLoopError: os error at /src/linux/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.";
-        assert_eq!(
-            no_window(of_winit),
-            "the window cannot be opened: neither WAYLAND_DISPLAY nor DISPLAY is set; without a display use the commands that \
-             cfs --help lists"
-        );
-        assert!(no_window("no OpenGL: none").starts_with("the window cannot be opened: no OpenGL: none; "));
+impl Drop for App {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            // A second fault here would end the program before it has said anything.
+            drop(catch_unwind(AssertUnwindSafe(|| {
+                let Self { session, shell, imports, goniophotometer, .. } = self;
+                let words = |text: String, job: JobView| text + "; " + job.lane.word().english();
+                let doing = shell.jobs.views().into_iter().fold("window".to_owned(), words);
+                session.end_at_fault(&doing, Open { state: &shell.state, imports, goniophotometer });
+            })));
+        }
     }
 }

@@ -1,101 +1,41 @@
 //! The window: catalogue on the left, tile area in the middle, scene on the right; everything linked, nothing modal.
 //!
-//! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] acts
-//! on them; [`work`] asks for whatever a change affects, and [`outcomes`] stores the results. Nothing here waits.
+//! Each feature is a folder ([`catalogue`], [`import`], [`compare`], [`year`], [`rank`], [`goniophotometer`], [`export`],
+//! [`tour`], …) with its state, its commands and what they do; it works on the [`shell::Shell`], which holds what all
+//! share. [`window::App`] composes them.
+//!
+//! Drawing ([`panels`], [`tiles`], [`views`]) reads [`state::State`] and returns [`command::Command`]s; [`apply`] hands
+//! them to their features; [`results`] asks for whatever a change affects, and [`outcomes`] hands the results of jobs to
+//! the features that asked. Nothing here waits.
 
-mod annual;
 pub mod apply;
-pub mod arrange;
-mod asking;
-pub mod autosave;
-pub mod backend;
-pub mod catalogue_command;
-pub mod changes;
-pub mod choose;
-mod choosing;
-pub mod clock;
-pub mod collecting;
+pub mod catalogue;
 pub mod command;
 pub mod compare;
-pub mod compare_columns;
-pub mod comparing;
-pub mod control;
-mod copying;
-pub mod data_looks;
-pub mod dialogs;
-pub mod disk;
-mod docking;
-mod due;
-pub mod editing;
-pub mod engine;
-pub mod error;
-pub mod examining;
-pub mod examples;
+pub mod desktop;
+pub mod display;
 pub mod export;
-pub mod export_choices;
-pub mod export_files;
-pub mod exporting;
-pub mod facing;
-pub mod faults;
-pub mod findings;
-mod first_choice;
-mod font_search;
-pub mod fonts;
 pub mod frame;
-pub mod gallery;
 pub mod goniophotometer;
 pub mod import;
-pub mod import_arranging;
-pub mod import_steps;
-pub mod import_table;
-pub mod importing;
-pub mod incidence;
-pub mod jobs;
-pub mod keeping;
-pub mod lane;
-pub mod language;
-mod looking;
-pub mod measuring;
-pub mod messages;
-pub mod moment;
-pub mod naming;
 pub mod offer;
 pub mod outcomes;
-pub mod outside;
 pub mod paint;
 pub mod palette;
 pub mod panels;
-pub mod picturing;
-mod rankings;
-pub mod reading;
-pub mod restoring;
-mod right_to_left;
-pub mod room_look;
-pub mod safe_name;
+pub mod rank;
+pub mod results;
 pub mod scene;
 pub mod session;
-pub mod session_error;
-pub mod settings;
-pub mod shelf;
-pub mod shelf_library;
+pub mod shell;
 pub mod state;
-pub mod states_in_progress;
-pub mod steps;
-pub mod text_size;
-mod text_sizing;
-pub mod theme;
 pub mod tiles;
 pub mod title;
 pub mod tour;
-mod touring;
-pub mod typed_path;
-pub mod typing;
 pub mod views;
 pub mod window;
-mod window_place;
-pub mod work;
-pub mod writing;
 pub mod year;
 
-pub use frame::run;
-pub use window::{App, Services};
+pub use desktop::run;
+pub use shell::Services;
+pub use window::App;

@@ -2,23 +2,23 @@
 //! labels, shortcuts and positions in the menus. A new command needs an entry here and its execution in
 //! [`super::apply`].
 
-use super::arrange::{self, Way};
-use super::catalogue_command::CatalogueCommand;
-use super::choose::ChooseAct;
 use super::command::{Command, SYSTEM_EDITOR};
 use super::compare::{Act, Look};
-use super::control;
-use super::examples::EXAMPLES;
-use super::language::LanguageChoice;
-use super::outside;
-use super::room_look::RoomView;
+use super::goniophotometer::EXAMPLES;
+use super::rank::ChooseAct;
 use super::state::{self, PathUse};
-use super::text_size::TextSize as Size;
-use super::theme::ThemeChoice;
 use super::tiles::TILES;
 use super::tour::TourAct;
 use super::views::btdf::form_words;
 use super::year::YearAct;
+use crate::app::catalogue::CatalogueCommand;
+use crate::app::display::language::LanguageChoice;
+use crate::app::display::text_size::TextSize as Size;
+use crate::app::display::theme::ThemeChoice;
+use crate::app::scene::control;
+use crate::app::scene::outside;
+use crate::app::scene::room_look::RoomView;
+use crate::app::tiles::arrange::{self, Way};
 use crate::study::data_form::DataForm as Form;
 use crate::study::scene_file::ControlMode;
 use crate::texts::commands::{self as words, COMPARE, EDIT, FILE, HELP, VIEW};

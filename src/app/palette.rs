@@ -2,14 +2,15 @@
 //! catalogue, the best match first.
 
 use super::command::Command;
-use super::control::state_words;
-use super::jobs::Lane;
 use super::offer::{key_words, listed};
-use super::shelf::{Found, Hit, Query};
+use super::shell::Shell;
 use super::state::State;
 use super::title;
-use super::window::App;
-use super::work::Outcome;
+use crate::app::catalogue::shelf::{Found, Hit, Query};
+use crate::app::results::work::Outcome;
+use crate::app::scene::control::state_words;
+use crate::app::shell::error::AppError;
+use crate::app::shell::jobs::Lane;
 use crate::texts::shell;
 
 /// Maximum number of rows that the command palette shows.
@@ -54,60 +55,13 @@ fn misfit(name: &str, about: &str, wanted: &[String]) -> Option<usize> {
     sum.map(|sum| 2 * sum + usize::from(!begins))
 }
 
-/// Returns the rows of the command palette that match a text, the best match first; in case of equal matches, commands
-/// before states and states before products.
-pub fn rows(state: &State, text: &str) -> Vec<Row> {
-    let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
-    // The palette itself is left out: it would only close.
-    let commands = listed().filter(|offer| offer.command != Command::Palette).map(|offer| {
-        let keys = offer.keys.as_ref().map(key_words);
-        (Row { command: offer.command.clone(), text: offer.text.clone(), tip: offer.tip.to_owned(), keys }, "")
-    });
-    let product = title::selected(state).filter(|product| !wanted.is_empty() && product.states.len() > 1);
-    let states = product.into_iter().flat_map(|product| {
-        product.states.iter().map(|one| {
-            let text = shell::state_of(&product.name, state_words(one));
-            let command = Command::SelectState(one.key.clone());
-            (Row { command, text, tip: shell::SHOW_STATE.into(), keys: None }, "")
-        })
-    });
-    let hits = state.palette_hits.iter().filter(|_| !wanted.is_empty()).map(|hit| {
-        let row = Row {
-            command: Command::Select(hit.key.clone()),
-            text: shell::product_named(&hit.name),
-            tip: hit.about.clone(),
-            keys: None,
-        };
-        (row, hit.name.as_str())
-    });
-    let mut list: Vec<(usize, Row)> = commands
-        .chain(states)
-        .chain(hits)
-        .filter_map(|(row, name)| {
-            // A product is known by its name, not by what stands before it.
-            let fit = if name.is_empty() {
-                misfit(&row.text, &row.tip, &wanted)
-            } else {
-                // The catalogue knows more words than are shown: what it found of these words fits in any case.
-                misfit(name, &row.tip, &wanted).or((state.palette_hits_of == text).then_some(100))
-            };
-            Some((fit?, row))
-        })
-        .collect();
-    if !wanted.is_empty() {
-        list.sort_by_key(|(fit, _)| *fit);
-    }
-    list.truncate(ROWS);
-    list.into_iter().map(|(_, row)| row).collect()
-}
-
 /// Returns the products that a search of the catalogue found; none if the search had replaced the words typed by
 /// similar ones.
 fn hits(found: Found) -> Vec<Hit> {
     if !found.read_as.is_empty() {
         return Vec::new();
     }
-    let hit = |entry: &std::sync::Arc<super::shelf::Entry>| {
+    let hit = |entry: &std::sync::Arc<crate::app::catalogue::shelf::Entry>| {
         let about: Vec<&str> =
             [entry.manufacturer.as_str(), entry.kind.as_str()].into_iter().filter(|words| !words.is_empty()).collect();
         Hit { key: entry.key.clone(), name: entry.name.clone(), about: about.join(", ") }
@@ -115,48 +69,115 @@ fn hits(found: Found) -> Vec<Hit> {
     found.entries.iter().take(PRODUCTS).map(hit).collect()
 }
 
-impl App {
+/// Rows of the command palette: which one is chosen, and the products that the catalogue found.
+#[derive(Default)]
+pub struct Palette {
+    /// Index of the row that Enter executes.
+    row: usize,
+    /// Products of the catalogue that match the text of the palette.
+    hits: Vec<Hit>,
+    /// Text of the palette for which `hits` were found.
+    hits_of: String,
+}
+
+impl Palette {
+    /// Returns the index of the row that Enter executes.
+    pub const fn row(&self) -> usize {
+        self.row
+    }
+
+    /// Chooses the row that Enter executes, by its index.
+    pub const fn choose(&mut self, row: usize) {
+        self.row = row;
+    }
+
+    /// Returns the rows of the command palette that match a text, the best match first; in case of equal matches, commands
+    /// before states and states before products.
+    pub fn rows(&self, state: &State, text: &str) -> Vec<Row> {
+        let wanted: Vec<String> = text.split_whitespace().map(str::to_lowercase).collect();
+        // The palette itself is left out: it would only close.
+        let commands = listed().filter(|offer| offer.command != Command::Palette).map(|offer| {
+            let keys = offer.keys.as_ref().map(key_words);
+            (Row { command: offer.command.clone(), text: offer.text.clone(), tip: offer.tip.to_owned(), keys }, "")
+        });
+        let product = title::selected(state).filter(|product| !wanted.is_empty() && product.states.len() > 1);
+        let states = product.into_iter().flat_map(|product| {
+            product.states.iter().map(|one| {
+                let text = shell::state_of(&product.name, state_words(one));
+                let command = Command::SelectState(one.key.clone());
+                (Row { command, text, tip: shell::SHOW_STATE.into(), keys: None }, "")
+            })
+        });
+        let hits = self.hits.iter().filter(|_| !wanted.is_empty()).map(|hit| {
+            let row = Row {
+                command: Command::Select(hit.key.clone()),
+                text: shell::product_named(&hit.name),
+                tip: hit.about.clone(),
+                keys: None,
+            };
+            (row, hit.name.as_str())
+        });
+        let mut list: Vec<(usize, Row)> = commands
+            .chain(states)
+            .chain(hits)
+            .filter_map(|(row, name)| {
+                // A product is known by its name, not by what stands before it.
+                let fit = if name.is_empty() {
+                    misfit(&row.text, &row.tip, &wanted)
+                } else {
+                    // The catalogue knows more words than are shown: what it found of these words fits in any case.
+                    misfit(name, &row.tip, &wanted).or((self.hits_of == text).then_some(100))
+                };
+                Some((fit?, row))
+            })
+            .collect();
+        if !wanted.is_empty() {
+            list.sort_by_key(|(fit, _)| *fit);
+        }
+        list.truncate(ROWS);
+        list.into_iter().map(|(_, row)| row).collect()
+    }
+
     /// Opens or closes the command palette.
-    pub(super) fn toggle_palette(&mut self) {
-        let state = &mut self.state;
+    pub fn toggle(&mut self, shell: &mut Shell) {
+        let state = &mut shell.state;
         state.palette = if state.palette.is_some() { None } else { Some(String::new()) };
-        state.palette_row = 0;
-        state.palette_hits.clear();
-        self.jobs.cancel(Lane::Palette);
+        self.row = 0;
+        self.hits.clear();
+        shell.jobs.cancel(Lane::Palette);
     }
 
     /// Sets the text of the command palette, and starts searching the catalogue for it.
-    pub(super) fn edit_palette(&mut self, text: String) {
+    pub fn edit(&mut self, shell: &mut Shell, text: String) {
         let words = text.trim().to_owned();
-        self.state.palette = Some(text);
-        self.state.palette_row = 0;
+        shell.state.palette = Some(text);
+        self.row = 0;
         if words.is_empty() {
-            self.state.palette_hits.clear();
-            self.jobs.cancel(Lane::Palette);
-        } else if let Some(shelf) = self.state.shelf() {
+            self.hits.clear();
+            shell.jobs.cancel(Lane::Palette);
+        } else if let Some(shelf) = shell.state.shelf() {
             let query = Query { text: words, ..Query::default() };
-            self.start(Lane::Palette, move |_| Outcome::Hits(shelf.search(&query)));
+            shell.start(Lane::Palette, move |_| Outcome::Hits(shelf.search(&query)));
         }
     }
 
     /// Takes over the products that the catalogue search found for the command palette, or reports its error; a chosen
     /// row stays chosen.
-    pub(super) fn take_hits(&mut self, found: Result<Found, super::error::AppError>) {
+    pub fn take(&mut self, shell: &mut Shell, found: Result<Found, AppError>) {
         match found {
             Ok(found) => {
-                let state = &mut self.state;
-                let text = state.palette.clone().unwrap_or_default();
-                let chosen = rows(state, &text).into_iter().nth(state.palette_row).filter(|_| state.palette_row > 0);
-                state.palette_hits = hits(found);
-                state.palette_hits_of.clone_from(&text);
+                let text = shell.state.palette.clone().unwrap_or_default();
+                let chosen = self.rows(&shell.state, &text).into_iter().nth(self.row).filter(|_| self.row > 0);
+                self.hits = hits(found);
+                self.hits_of.clone_from(&text);
                 // What was gone to with the arrow keys stays chosen, wherever it stands now.
                 if let Some(chosen) = chosen {
-                    state.palette_row = rows(state, &text).iter().position(|row| *row == chosen).unwrap_or(0);
+                    self.row = self.rows(&shell.state, &text).iter().position(|row| *row == chosen).unwrap_or(0);
                 }
             }
             Err(error) => {
-                self.state.palette_hits.clear();
-                self.report_error(&error);
+                self.hits.clear();
+                shell.report_error(&error);
             }
         }
     }
@@ -169,12 +190,10 @@ mod tests {
     use crate::texts::{Language, speak};
 
     fn texts(words: &str, hits: &[&str]) -> Vec<String> {
-        let mut state = State::new(Settings::default());
         let hit =
             |name: &&str| Hit { key: (*name).to_owned(), name: (*name).to_owned(), about: "Maker, blind".to_owned() };
-        state.palette_hits = hits.iter().map(hit).collect();
-        state.palette_hits_of = words.to_owned();
-        rows(&state, words).into_iter().map(|row| row.text).collect()
+        let palette = Palette { row: 0, hits: hits.iter().map(hit).collect(), hits_of: words.to_owned() };
+        palette.rows(&State::new(Settings::default()), words).into_iter().map(|row| row.text).collect()
     }
 
     #[test]
@@ -203,11 +222,10 @@ mod tests {
 
     #[test]
     fn what_was_found_of_other_words_has_to_fit_by_itself() {
-        let mut state = State::new(Settings::default());
-        state.palette_hits =
-            vec![Hit { key: "k".to_owned(), name: "Blind 80".to_owned(), about: "Maker, blind".to_owned() }];
-        state.palette_hits_of = "xyz".to_owned();
-        let listed = |words: &str| rows(&state, words).iter().any(|row| row.text.contains("Blind 80"));
+        let hit = Hit { key: "k".to_owned(), name: "Blind 80".to_owned(), about: "Maker, blind".to_owned() };
+        let palette = Palette { row: 0, hits: vec![hit], hits_of: "xyz".to_owned() };
+        let state = State::new(Settings::default());
+        let listed = |words: &str| palette.rows(&state, words).iter().any(|row| row.text.contains("Blind 80"));
         assert!(listed("xyz") && listed("blind") && !listed("xyzz"));
     }
 

@@ -1,22 +1,17 @@
 //! State of the window: the document, which undo covers; settings, which are stored; results and display states, which
 //! are neither.
 
-use super::changes::{Change, Editing};
-use super::choose::{Figures, Pace};
 use super::compare::View;
-use super::control::{Year, YearKey};
-use super::data_looks::{DataLook, FormResult, SchemesResult};
-use super::engine::{LidFigures, RoomFigures, SurfaceFigures};
-use super::export_choices::ExportState;
-use super::goniophotometer::Bench;
-use super::import::{Arranged, Import, KeptImport};
-use super::outside::ObstructionEffects;
+use super::rank::{Figures, Pace};
+use super::results::data_looks::{DataLook, FormResult, SchemesResult};
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
-pub use super::settings::Settings;
-use super::shelf::{Addition, Found, Hit, Query, Sets, Shelf};
-use super::tour::Tour;
 use super::year::Calendar;
-use crate::catalogue::{Deleted, Product};
+use crate::app::catalogue::shelf::{Found, Query, Sets, Shelf};
+use crate::app::results::engine::{LidFigures, RoomFigures, SurfaceFigures};
+use crate::app::scene::control::{Year, YearKey};
+use crate::app::scene::outside::ObstructionEffects;
+pub use crate::app::shell::settings::Settings;
+use crate::catalogue::Product;
 use crate::compute::btdf::Dataset;
 use crate::compute::direction::Incident;
 use crate::compute::doctor::Diagnosis;
@@ -72,14 +67,6 @@ impl Document {
         (&self.selection, &self.additions, &self.changes) == (&other.selection, &other.additions, &other.changes)
             && same_question(&self.scene, &other.scene)
     }
-}
-
-/// Product added to the catalogue in this session, stored so that undo can remove it and redo can restore it.
-pub struct Added {
-    /// Product that was added.
-    pub addition: Addition,
-    /// Key of the product in the catalogue; `None` while it is not there.
-    pub key: Option<String>,
 }
 
 /// Catalogue, or the state of opening it.
@@ -162,6 +149,11 @@ pub struct Results {
 }
 
 impl Results {
+    /// Returns the result of the annual simulation, if it belongs to this scene.
+    pub fn year_of(&self, scene: &SceneFile) -> Option<Arc<Annual>> {
+        self.annual.value.clone().filter(|annual| annual.is_of(scene))
+    }
+
     /// Returns the largest intensities of the LID shown; `None` while they are being computed.
     pub fn lid_peaks(&self) -> Option<&Peaks> {
         let (of, peaks) = self.peaks.as_ref()?;
@@ -270,52 +262,16 @@ pub struct State {
     pub path: String,
     /// Path of an existing file that is to be written; the user is asked whether to replace it.
     pub replace: Option<PathBuf>,
-    /// State of the export panel.
-    pub export: ExportState,
-    /// Open import.
-    pub import: Option<Import>,
-    /// Import that is being read from its files or written to the catalogue, as stored in the session.
-    pub under_way: Option<KeptImport>,
-    /// Import whose products are being stored; it is opened again if they cannot be.
-    pub storing: Option<Import>,
-    /// Drafts of imports.
-    pub drafts: Vec<KeptImport>,
-    /// Imports and drafts that were discarded in this session.
-    pub discarded: Vec<KeptImport>,
-    /// Changes of an import's grouping in this session.
-    pub arranged: Vec<Arranged>,
-    /// State of the virtual goniophotometer's side panel.
-    pub goniophotometer: Bench,
-    /// Products added to the catalogue in this session.
-    pub additions: Vec<Added>,
-    /// Changes of this session to products of the catalogue.
-    pub changes: Vec<Change>,
-    /// State of the side panel of the product that is being edited.
-    pub editing: Option<Editing>,
-    /// Keys of the product and the state whose data are to be replaced.
-    pub replacing: Option<(String, String)>,
-    /// Deleted products, found by the last look-up.
-    pub deleted: Vec<Deleted>,
-    /// Collections and subscriptions, found by the last look-up.
-    pub sets: Sets,
-    /// Name of a new collection, as typed.
-    pub collection: String,
     /// Text of the command palette while it is open.
     pub palette: Option<String>,
-    /// Index of the row of the command palette that Enter executes.
-    pub palette_row: usize,
-    /// Products of the catalogue that match the text of the command palette.
-    pub palette_hits: Vec<Hit>,
-    /// Text of the command palette for which `palette_hits` were found.
-    pub palette_hits_of: String,
+    /// Collections and subscriptions, found by the last look-up.
+    pub sets: Sets,
     /// Whether the search field is to get the keyboard focus.
     pub focus_search: bool,
     /// Whether the field of the opened side panel is to get the keyboard focus.
     pub wants_keyboard: bool,
     /// Whether the selected entry of the catalogue is to get the keyboard focus in the next frame.
     pub focus_list: bool,
-    /// Whether the first product is to be selected as soon as the typed search has been executed.
-    pub first_due: bool,
     /// Dataset of the selected product and state.
     pub dataset: Shown<Dataset>,
     /// Findings of the data check, with the dataset that was checked.
@@ -342,10 +298,6 @@ pub struct State {
     pub control_of: Option<usize>,
     /// Display settings of the comparison.
     pub compare: View,
-    /// Running tour; `None` if it is not running.
-    pub tour: Option<Tour>,
-    /// Whether the tour is offered, because the user has never opened the window before.
-    pub tour_offered: bool,
     /// Index of the row of the catalogue that the keyboard has reached.
     pub row: usize,
     /// Key of the product to which the list was last scrolled.
@@ -376,29 +328,11 @@ impl State {
             sheet: None,
             path: String::new(),
             replace: None,
-            export: ExportState::default(),
-            import: None,
-            under_way: None,
-            storing: None,
-            drafts: Vec::new(),
-            discarded: Vec::new(),
-            arranged: Vec::new(),
-            goniophotometer: Bench::default(),
-            additions: Vec::new(),
-            changes: Vec::new(),
-            editing: None,
-            replacing: None,
-            deleted: Vec::new(),
-            sets: Sets::default(),
-            collection: String::new(),
             palette: None,
-            palette_row: 0,
-            palette_hits: Vec::new(),
-            palette_hits_of: String::new(),
+            sets: Sets::default(),
             focus_search: false,
             wants_keyboard: false,
             focus_list: false,
-            first_due: false,
             dataset: Shown::default(),
             examined: None,
             computing: None,
@@ -411,8 +345,6 @@ impl State {
             scene_path: None,
             control_of: None,
             compare: View::default(),
-            tour: None,
-            tour_offered: false,
             row: 0,
             scrolled_to: String::new(),
         }

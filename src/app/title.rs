@@ -2,7 +2,8 @@
 
 use super::scene::own_system;
 use super::state::{CatalogueState, State};
-use super::{control, moment};
+use crate::app::scene::control;
+use crate::app::scene::moment;
 use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
 use crate::study::sky::is_elsewhere;

@@ -3,8 +3,8 @@
 use super::choices::Choices;
 use super::{again, edits, told};
 use cfs::app::session::Kept;
+use cfs::app::shell::typing;
 use cfs::app::tiles::{Layout, TILES};
-use cfs::app::typing;
 use cfs::formats::encoding::decode;
 use cfs::formats::{system_toml, toml_place};
 use cfs::study::control::ControlQuestion;

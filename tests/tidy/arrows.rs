@@ -102,9 +102,14 @@ pub fn arrows(sources: &[(String, String)]) -> Arrows {
     found
 }
 
-/// The same between rooms: the first `depth` words of their paths.
+/// The same between rooms: the first `depth` words of their paths. The features of the window are one room: they name
+/// each other's data, as the state does that they share. What they draw with (`paint`) is below them.
 pub fn between_rooms(arrows: &Arrows, depth: usize) -> Arrows {
-    let room = |file: &str| module_of(file).into_iter().take(depth).collect::<Vec<_>>().join("/");
+    let room = |file: &str| {
+        let words = module_of(file);
+        let is_feature = words[0] == "app" && words.get(1).is_none_or(|word| word != "paint");
+        words.into_iter().take(if is_feature { 1 } else { depth }).collect::<Vec<_>>().join("/")
+    };
     let mut rooms = Arrows::new();
     for (from, targets) in arrows {
         for (to, line) in targets {

@@ -162,7 +162,7 @@ fn nothing_is_left_unfinished_or_ignored() {
 const ONE_PLACE: [(&str, &[&str]); 5] = [
     ("fs::write(", &[]),
     ("File::create(", &[]),
-    ("fs::rename(", &["study/part.rs", "app/autosave.rs"]),
+    ("fs::rename(", &["study/part.rs", "app/session/autosave.rs"]),
     ("println!(", &[]),
     ("eprint!(", &[]),
 ];
@@ -406,13 +406,13 @@ fn circles_are_seen() {
     ]);
     assert_eq!(arrows::circles(&arrows::arrows(&parent)), [["app/a.rs", "app/mod.rs"]]);
     let rooms = made(&[
-        ("app/x/one.rs", "use crate::app::y::two::Two; pub struct One;"),
-        ("app/y/two.rs", "pub struct Two;"),
-        ("app/y/three.rs", "use crate::app::x::one::One;"),
+        ("study/x/one.rs", "use crate::study::y::two::Two; pub struct One;"),
+        ("study/y/two.rs", "pub struct Two;"),
+        ("study/y/three.rs", "use crate::study::x::one::One;"),
     ]);
     let arrows = arrows::arrows(&rooms);
     assert!(arrows::circles(&arrows).is_empty());
-    assert_eq!(arrows::circles(&arrows::between_rooms(&arrows, 2)), [["app/x", "app/y"]]);
+    assert_eq!(arrows::circles(&arrows::between_rooms(&arrows, 2)), [["study/x", "study/y"]]);
 }
 
 #[test]
@@ -428,16 +428,16 @@ fn data_of_others_are_named_with_their_licence() {
 
 /// Files of the window and its reports whose literals may have words, with the reason.
 const NO_WORDS: [(&str, &str); 18] = [
-    ("src/app/autosave.rs", "the name of a thread"),
-    ("src/app/backend.rs", "products of tests' catalogues"),
+    ("src/app/catalogue/states_in_progress.rs", "a stage, which `texts::stages` translates"),
     ("src/app/command.rs", "the name of a field"),
-    ("src/app/examples.rs", "system files, a format of its own"),
-    ("src/app/frame.rs", "said on the terminal, where no window is"),
-    ("src/app/language.rs", "languages by their own names"),
+    ("src/app/desktop.rs", "said on the terminal, where no window is"),
+    ("src/app/display/language.rs", "languages by their own names"),
+    ("src/app/goniophotometer/examples.rs", "system files, a format of its own"),
     ("src/app/panels/compare/curves.rs", "the name of a plot"),
     ("src/app/panels/goniophotometer.rs", "the beginning of a system file"),
     ("src/app/panels/import.rs", "the name of an area"),
-    ("src/app/states_in_progress.rs", "a stage, which `texts::stages` translates"),
+    ("src/app/results/backend.rs", "products of tests' catalogues"),
+    ("src/app/session/autosave.rs", "the name of a thread"),
     ("src/drawing/svg.rs", "markup"),
     ("src/report/error.rs", "errors are in English, as those of the layers below"),
     ("src/report/pdf.rs", "errors"),

@@ -4,10 +4,10 @@ use crate::common::compares_pictures;
 use crate::driven::Idle;
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
-use cfs::app::jobs::Lane;
-use cfs::app::language::LanguageChoice;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::shell::error::AppError;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::state::Sheet;
 use cfs::app::views::accuracy as view;
 use cfs::compute::estimate::{Cancelled, Progress};
@@ -119,10 +119,10 @@ fn a_key_opens_the_sheet_and_a_button_measures() {
     let (mut harness, _) = window();
     harness.key_press(Key::A);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Accuracy));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Accuracy));
     assert!(harness.query_by_label_contains("Error of each method against").is_some());
     harness.get_by_label("Compute series").click();
-    wait(&mut harness, |app| app.results.accuracy.value.is_some());
+    wait(&mut harness, |app| app.shell.results.accuracy.value.is_some());
     let picture = harness.get_by_label("Error against run time");
     assert!(picture.value().unwrap().contains("keeps its stated uncertainty at"));
     assert_eq!(harness.query_all_by_label("outdated").count(), 0);
@@ -130,7 +130,7 @@ fn a_key_opens_the_sheet_and_a_button_measures() {
     for language in [LanguageChoice::German, LanguageChoice::English] {
         harness.state_mut().apply(Command::Language(language));
         wait(&mut harness, |app| !app.busy());
-        assert!(!harness.state().results.accuracy.stale);
+        assert!(!harness.state().shell.results.accuracy.stale);
     }
     // Another scene: the picture stays, and says whose it is.
     harness.state_mut().apply(Command::Hour(1));
@@ -138,7 +138,7 @@ fn a_key_opens_the_sheet_and_a_button_measures() {
     assert!(harness.query_all_by_label("outdated").count() > 0);
     harness.key_press(Key::Escape);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.sheet, None);
+    assert_eq!(harness.state().shell.state.sheet, None);
 }
 
 #[test]
@@ -147,14 +147,14 @@ fn a_ladder_can_be_stopped() {
     engine.slow.store(true, Ordering::Relaxed);
     harness.state_mut().apply(Command::MeasureAccuracy);
     wait(&mut harness, |app| app.busy());
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Accuracy));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Accuracy));
     harness.get_by_label("Stop").click();
     wait(&mut harness, |app| !app.busy());
     let start = Instant::now();
     while !engine.withdrawn.load(Ordering::Relaxed) && start.elapsed() < Duration::from_secs(10) {
         std::thread::sleep(Duration::from_millis(1));
     }
-    assert!(engine.withdrawn.load(Ordering::Relaxed) && harness.state().results.accuracy.value.is_none());
+    assert!(engine.withdrawn.load(Ordering::Relaxed) && harness.state().shell.results.accuracy.value.is_none());
     assert!(!Lane::Accuracy.word().english().is_empty());
 }
 

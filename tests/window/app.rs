@@ -3,10 +3,10 @@
 use crate::driven::{frames, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
+use cfs::app::display::theme::ThemeChoice;
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::shell::error::AppError;
 use cfs::app::state::Sheet;
-use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::compared;
 use cfs::compute::estimate::{Cancelled, Estimate, Progress};
 use cfs::study::accuracy::Accuracy;
@@ -81,11 +81,11 @@ fn window() -> (Harness<'static, App>, Arc<Scripted>) {
 
 /// Title of the tile that fills the bench.
 fn maximised(harness: &Harness<'_, App>) -> Option<&'static str> {
-    harness.state().state.maximised.map(|tile| tile.title)
+    harness.state().shell.state.maximised.map(|tile| tile.title)
 }
 
 fn title(harness: &Harness<'_, App>) -> String {
-    cfs::app::title::title(&harness.state().state)
+    cfs::app::title::title(&harness.state().shell.state)
 }
 
 #[test]
@@ -99,8 +99,8 @@ fn a_first_start_shows_six_tiles_of_a_product_at_a_place_and_time() {
         assert!(title.contains(word), "{title}");
     }
     let app = harness.state();
-    assert!(app.results.room.value.is_some() && !app.results.room.stale);
-    assert!(app.state.daylight.value.is_some() && app.state.dataset.value.is_some());
+    assert!(app.shell.results.room.value.is_some() && !app.shell.results.room.stale);
+    assert!(app.shell.state.daylight.value.is_some() && app.shell.state.dataset.value.is_some());
 }
 
 #[test]
@@ -123,16 +123,16 @@ fn typing_in_the_search_field_filters_the_list() {
 #[test]
 fn selecting_a_product_changes_title_dataset_and_aperture_and_undo_takes_it_back() {
     let (mut harness, _) = window();
-    let before = harness.state().state.document.clone();
+    let before = harness.state().shell.state.document.clone();
     assert!(title(&harness).contains("Clear opening"));
     harness.get_by_label("Ideal diffuser").click();
     settle(&mut harness);
     assert!(title(&harness).contains("Ideal diffuser"), "{}", title(&harness));
-    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    let dataset = harness.state().shell.state.dataset.value.clone().unwrap();
     assert!((dataset.transmission().unwrap().tau_normal() - 0.6).abs() < 1e-12);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut harness);
-    assert_eq!(harness.state().state.document, before);
+    assert_eq!(harness.state().shell.state.document, before);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     settle(&mut harness);
     assert!(title(&harness).contains("Ideal diffuser"));
@@ -149,7 +149,7 @@ fn keys_maximise_tiles_and_move_the_clock() {
     harness.key_press(Key::ArrowRight);
     harness.key_press(Key::ArrowUp);
     settle(&mut harness);
-    assert_eq!(harness.state().state.maximised, None);
+    assert_eq!(harness.state().shell.state.maximised, None);
     assert!(title(&harness).contains("22 Mar 13:00"), "{}", title(&harness));
     harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowLeft);
     settle(&mut harness);
@@ -175,43 +175,43 @@ fn arrow_keys_belong_to_an_open_list() {
 fn a_later_hour_gives_another_sky_and_another_room_job() {
     let (mut harness, engine) = window();
     let before = engine.started.load(Ordering::SeqCst);
-    let sky = harness.state().state.daylight.value.clone().unwrap();
+    let sky = harness.state().shell.state.daylight.value.clone().unwrap();
     harness.key_press(Key::ArrowRight);
     settle(&mut harness);
     assert!(engine.started.load(Ordering::SeqCst) > before);
-    let later = harness.state().state.daylight.value.clone().unwrap();
+    let later = harness.state().shell.state.daylight.value.clone().unwrap();
     assert!(later.outside.diffuse_horizontal() != sky.outside.diffuse_horizontal());
 }
 
 #[test]
 fn a_slow_job_never_holds_a_frame_and_is_withdrawn_by_the_next_change() {
     let (mut harness, engine) = window();
-    harness.state_mut().state.document.scene.room.reflectance.floor = SLOW;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = SLOW;
     harness.run_steps(2);
-    assert!(harness.state().busy() && harness.state().results.room.stale);
+    assert!(harness.state().busy() && harness.state().shell.results.room.stale);
     let start = Instant::now();
     let ctx = harness.ctx.clone();
     harness.state_mut().logic(&ctx);
     assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
-    harness.state_mut().state.document.scene.room.reflectance.floor = 0.3;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = 0.3;
     settle(&mut harness);
     assert_eq!(engine.withdrawn.load(Ordering::SeqCst), 1);
-    assert!(!harness.state().results.room.stale);
+    assert!(!harness.state().shell.results.room.stale);
 }
 
 #[test]
 fn a_fault_in_a_job_is_told_and_the_window_lives_on() {
     let (mut harness, _) = window();
-    harness.state_mut().state.document.scene.room.reflectance.ceiling = SLOW;
+    harness.state_mut().shell.state.document.scene.room.reflectance.ceiling = SLOW;
     settle(&mut harness);
-    assert!(harness.state().results.room.error.as_deref().unwrap().contains("a fault on purpose"));
-    harness.state_mut().state.document.scene.room.reflectance.ceiling = 0.8;
+    assert!(harness.state().shell.results.room.error.as_deref().unwrap().contains("a fault on purpose"));
+    harness.state_mut().shell.state.document.scene.room.reflectance.ceiling = 0.8;
     settle(&mut harness);
-    assert!(harness.state().results.room.error.is_none() && !harness.state().results.room.stale);
+    assert!(harness.state().shell.results.room.error.is_none() && !harness.state().shell.results.room.stale);
 }
 
 fn products(harness: &Harness<'_, App>) -> usize {
-    harness.state().state.found.total
+    harness.state().shell.state.found.total
 }
 
 fn open(harness: &mut Harness<'_, App>, path: &Path) {
@@ -227,15 +227,15 @@ fn a_damaged_file_is_told_and_leaves_the_catalogue_as_it_was() {
     let path = folder.path().join("damaged.xml");
     std::fs::write(&path, "<WindowElement><Optical>").unwrap();
     open(&mut harness, &path);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
-    let failure = harness.state().state.import.as_ref().unwrap().failures[0].clone();
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Import));
+    let failure = harness.state().imports.open().unwrap().failures[0].clone();
     assert!(failure.starts_with("damaged.xml: "), "{failure}");
     assert!(harness.query_by_label(&failure).is_some());
     assert!(harness.query_by_label("Add to catalogue").is_none());
     harness.get_by_label("Discard").click();
     settle(&mut harness);
     assert_eq!(products(&harness), 2);
-    assert!(harness.state().state.import.is_none());
+    assert!(harness.state().imports.open().is_none());
 }
 
 /// A file with a basis of its own: three rings, and the same 0.15 1/sr from everywhere to everywhere.
@@ -270,7 +270,7 @@ fn an_import_is_stored_on_request_alone_and_undo_takes_it_out_and_redo_puts_it_b
     let path = folder.path().join("screen.xml");
     std::fs::write(&path, small_dataset()).unwrap();
     open(&mut harness, &path);
-    let import = harness.state().state.import.as_ref().unwrap();
+    let import = harness.state().imports.open().unwrap();
     assert!(import.failures.is_empty(), "{:?}", import.failures);
     let fields = &import.products[0].fields;
     assert_eq!((fields.name.as_str(), fields.manufacturer.as_str()), ("Test screen", "Nobody"));
@@ -300,12 +300,12 @@ fn a_scene_is_saved_and_read_back_as_it_was() {
     let path = folder.path().join("study.toml");
     harness.state_mut().apply(Command::Write(PathUse::SaveScene, path.clone()));
     settle(&mut harness);
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     harness.key_press(Key::ArrowRight);
     settle(&mut harness);
-    assert_ne!(harness.state().state.document.scene, scene);
+    assert_ne!(harness.state().shell.state.document.scene, scene);
     open(&mut harness, &path);
-    assert_eq!(harness.state().state.document.scene, scene);
+    assert_eq!(harness.state().shell.state.document.scene, scene);
 }
 
 #[test]
@@ -318,7 +318,7 @@ fn the_palette_finds_a_command_by_its_words() {
     harness.key_press(Key::Enter);
     harness.run_steps(4);
     assert_eq!(maximised(&harness), Some("LID"));
-    assert!(harness.state().state.palette.is_none());
+    assert!(harness.state().shell.state.palette.is_none());
 }
 
 /// Seven incidences of no lattice: with the light from the right brighter.
@@ -348,13 +348,13 @@ fn measured_states_come_in_together_and_a_click_chooses_a_measured_incidence() {
     });
     harness.state_mut().apply(Command::OpenPaths(paths.to_vec()));
     settle(&mut harness);
-    let import = harness.state().state.import.as_ref().unwrap();
+    let import = harness.state().imports.open().unwrap();
     assert!(import.failures.is_empty(), "{:?}", import.failures);
     assert_eq!(import.products.len(), 1);
     assert_eq!((import.products[0].datasets.len(), import.products[0].fields.kind.as_str()), (2, "panel"));
     harness.get_by_label("Add to catalogue").click();
     settle(&mut harness);
-    assert_eq!(harness.state().state.product.as_ref().unwrap().states.len(), 2);
+    assert_eq!(harness.state().shell.state.product.as_ref().unwrap().states.len(), 2);
     // Somewhere between the directions: the nearest one is chosen, not the middle of a cell.
     let disk = harness.get_by_label("Incident hemisphere").rect();
     // Seen from inside the right of the façade is on the left.
@@ -379,6 +379,6 @@ fn a_command_that_is_typed_and_entered_at_once_closes_the_palette() {
     harness.event(egui::Event::Text("theme light".to_owned()));
     harness.key_press(Key::Enter);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.palette, None);
-    assert_eq!(harness.state().state.settings.theme, ThemeChoice::Light);
+    assert_eq!(harness.state().shell.state.palette, None);
+    assert_eq!(harness.state().shell.state.settings.theme, ThemeChoice::Light);
 }

@@ -3,12 +3,12 @@
 
 use crate::common::data;
 use crate::driven::{apply, coarsen, frames, settle, step_until};
-use cfs::app::backend::{StudyEngine, memory_shelf, open_shelf};
+use cfs::app::catalogue::shelf::Query;
 use cfs::app::command::Command;
-use cfs::app::dialogs::NoDialogs;
-use cfs::app::jobs::Lane;
+use cfs::app::results::backend::{StudyEngine, memory_shelf, open_shelf};
 use cfs::app::scene::{Selection, fill, first_scene};
-use cfs::app::shelf::Query;
+use cfs::app::shell::dialogs::NoDialogs;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::state::{PathUse, Settings};
 use cfs::app::tiles::{TILES, compared};
 use cfs::app::{App, Services};
@@ -49,20 +49,20 @@ fn a_first_start_shows_six_tiles_before_the_catalogue_is_filled() {
     let path = folder.path().join("catalogue.sqlite");
     let mut harness = window_on(&path, Settings::default());
     step_until(&mut harness, "six tiles", |app| {
-        let results = &app.results;
-        let shown = app.state.dataset.value.is_some() && app.state.daylight.value.is_some();
+        let results = &app.shell.results;
+        let shown = app.shell.state.dataset.value.is_some() && app.shell.state.daylight.value.is_some();
         shown && results.lid.value.is_some() && results.room.value.is_some() && results.year.value.is_some()
     });
-    assert_eq!(harness.state().state.document.selection.product, "venetian-80-72");
+    assert_eq!(harness.state().shell.state.document.selection.product, "venetian-80-72");
     // All of them are in the list, with figures, while hardly any data are there.
-    let entries = harness.state().state.found.entries.clone();
+    let entries = harness.state().shell.state.found.entries.clone();
     assert_eq!(entries.len(), SYSTEMS.len() + 2);
     assert!(entries.iter().all(|entry| entry.tau_normal.is_some() && entry.tau_profile.len() > 10));
     let waiting = || Catalogue::open(&path).unwrap().waiting().unwrap().len();
     let left = waiting();
     assert!(left > entries.len(), "nothing that is not in sight came before: {left} states are left");
     harness.state_mut().apply(Command::Find(Query { text: "prismatic".to_owned(), ..Query::default() }));
-    step_until(&mut harness, "prismatic", |app| app.state.found.entries.len() == 6);
+    step_until(&mut harness, "prismatic", |app| app.shell.state.found.entries.len() == 6);
     step_until(&mut harness, "more data come behind all else", |_| waiting() < left);
     // What was done stays for the next start.
     drop(harness);
@@ -101,12 +101,14 @@ fn the_first_data_filled_in_are_those_of_the_chosen_product_then_of_the_list() {
 fn a_state_that_is_to_be_computed_is_told_and_everything_else_is_shown_meanwhile() {
     let folder = tempfile::tempdir().unwrap();
     let mut harness = window_on(&folder.path().join("catalogue.sqlite"), Settings::default());
-    step_until(&mut harness, "the first product", |app| app.state.dataset.value.is_some() && !app.state.dataset.stale);
+    step_until(&mut harness, "the first product", |app| {
+        app.shell.state.dataset.value.is_some() && !app.shell.state.dataset.stale
+    });
     let key = "double-integral-micro-blind";
     harness.state_mut().apply(Command::Select(key.to_owned()));
-    step_until(&mut harness, "it is told", |app| app.state.computing.is_some());
+    step_until(&mut harness, "it is told", |app| app.shell.state.computing.is_some());
     harness.step();
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     assert!(state.product.as_ref().is_some_and(|product| product.key == key && product.states.len() > 5));
     assert!(state.daylight.value.is_some() && !state.daylight.stale && state.dataset.stale);
     // The state that stands for the product, not its first one.
@@ -119,12 +121,14 @@ fn a_state_that_is_to_be_computed_is_told_and_everything_else_is_shown_meanwhile
     // Stopped, nothing goes on computing it; another product comes as ever.
     harness.state_mut().apply(Command::Cancel(Lane::Product));
     harness.run_steps(2);
-    assert!(harness.state().state.computing.is_none() && harness.state().state.dataset.stale);
+    assert!(harness.state().shell.state.computing.is_none() && harness.state().shell.state.dataset.stale);
     harness.state_mut().apply(Command::Select("clear-double".to_owned()));
-    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
-    step_until(&mut harness, "clear-double", |app| shown(app) && !app.state.dataset.stale && !app.results.room.stale);
-    assert!(harness.state().state.computing.is_none());
-    assert_eq!(harness.state().state.dataset.value.as_ref().unwrap().name, "Clear glass, double");
+    let shown = |app: &App| app.shell.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| {
+        shown(app) && !app.shell.state.dataset.stale && !app.shell.results.room.stale
+    });
+    assert!(harness.state().shell.state.computing.is_none());
+    assert_eq!(harness.state().shell.state.dataset.value.as_ref().unwrap().name, "Clear glass, double");
 }
 
 #[test]
@@ -134,13 +138,13 @@ fn a_scene_whose_product_is_not_computed_yet_is_shown_when_it_is() {
     fill(&mut scene, &Selection { product: "clear-double".to_owned(), state: String::new() });
     let settings = Settings { last_scene: toml::to_string(&scene).ok(), ..Settings::default() };
     let mut harness = window_on(&folder.path().join("catalogue.sqlite"), settings);
-    let shown = |app: &App| app.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
-    step_until(&mut harness, "clear-double", |app| shown(app) && app.results.room.value.is_some());
+    let shown = |app: &App| app.shell.state.product.as_ref().is_some_and(|product| product.key == "clear-double");
+    step_until(&mut harness, "clear-double", |app| shown(app) && app.shell.results.room.value.is_some());
 }
 
 /// Mean illuminance over the sensors: total and direct. [lx]
 fn means(harness: &Harness<'_, App>) -> (f64, f64) {
-    let results = &harness.state().results.room;
+    let results = &harness.state().shell.results.room;
     assert!(!results.stale && results.error.is_none(), "{:?}", results.error);
     let room = results.value.as_ref().unwrap();
     let count = room.positions.len() as f64;
@@ -150,14 +154,14 @@ fn means(harness: &Harness<'_, App>) -> (f64, f64) {
 
 /// A product that moves and has a control curve.
 fn select_blind(harness: &mut Harness<'_, App>) -> Arc<cfs::catalogue::Product> {
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     let entries = shelf.search(&Query::default()).unwrap().entries;
     let blind = entries
         .iter()
         .find(|entry| entry.states.len() > 2 && !shelf.product(&entry.key).unwrap().control_curve.is_empty())
         .expect("a built-in blind with a control curve");
     apply(harness, Command::Select(blind.key.clone()));
-    harness.state().state.product.clone().unwrap()
+    harness.state().shell.state.product.clone().unwrap()
 }
 
 #[test]
@@ -180,33 +184,33 @@ fn control_closes_the_blind_against_the_sun_and_the_room_follows() {
     apply(&mut harness, Command::SelectState(most_open.unwrap().key.clone()));
     let open = means(&harness).0;
     apply(&mut harness, Command::Control(ControlMode::Din5034));
-    let closed = harness.state().state.shown_state.clone();
+    let closed = harness.state().shell.state.shown_state.clone();
     let greatest = product.states.iter().map(|state| state.value.unwrap()).fold(f64::MIN, f64::max);
     assert_eq!(values(&closed), greatest, "the noon sun stands before a south façade");
     assert!(means(&harness).0 < 0.7 * open, "{} {open}", means(&harness).0);
-    assert!(cfs::app::title::title(&harness.state().state).contains(&format!(", {closed}° ·")));
+    assert!(cfs::app::title::title(&harness.state().shell.state).contains(&format!(", {closed}° ·")));
     // The dataset shown is that of the picked state.
-    let shelf = harness.state().state.shelf().unwrap();
-    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
+    let dataset = harness.state().shell.state.dataset.value.clone().unwrap();
     assert_eq!(*dataset, *shelf.load(&product.key, Some(&closed)).unwrap());
     // The scene that is saved says so itself.
-    let scene = &harness.state().state.document.scene;
+    let scene = &harness.state().shell.state.document.scene;
     assert_eq!(scene.control.as_ref().unwrap().mode, ControlMode::Din5034);
-    assert_eq!(harness.state().state.document.selection.state, CONTROLLED);
+    assert_eq!(harness.state().shell.state.document.selection.state, CONTROLLED);
 
     // The curve of a cut-off blind asks for less than closing it.
     apply(&mut harness, Command::Control(ControlMode::Curve));
-    let picked = harness.state().state.shown_state.clone();
+    let picked = harness.state().shell.state.shown_state.clone();
     assert!(values(&picked) < greatest, "{picked}");
     // By night it opens.
     apply(&mut harness, Command::Hour(11));
-    assert_eq!(harness.state().state.shown_state, most_open.unwrap().key);
+    assert_eq!(harness.state().shell.state.shown_state, most_open.unwrap().key);
     // A key takes over by hand, from where control stood.
     harness.key_press(Key::CloseBracket);
     settle(&mut harness);
-    assert_eq!(harness.state().state.control_mode(), ControlMode::Fixed);
-    assert!(harness.state().state.document.scene.control.is_none());
-    assert_ne!(harness.state().state.document.selection.state, CONTROLLED);
+    assert_eq!(harness.state().shell.state.control_mode(), ControlMode::Fixed);
+    assert!(harness.state().shell.state.document.scene.control.is_none());
+    assert_ne!(harness.state().shell.state.document.selection.state, CONTROLLED);
 }
 
 #[test]
@@ -214,7 +218,7 @@ fn the_year_of_control_knows_nights_and_the_suns_half_of_the_day() {
     let mut harness = window();
     let product = select_blind(&mut harness);
     apply(&mut harness, Command::Control(ControlMode::Curve));
-    let year = harness.state().results.year.value.clone().expect("a year");
+    let year = harness.state().shell.results.year.value.clone().expect("a year");
     assert_eq!(year.hours.len(), 365 * 24);
     assert_eq!(year.states.len(), product.states.len());
     // Midnight never has sun, noon of a south façade always.
@@ -223,10 +227,10 @@ fn the_year_of_control_knows_nights_and_the_suns_half_of_the_day() {
     let noon = |day: usize| year.hours[24 * day + 12].unwrap();
     assert!(noon(171) < noon(354), "{} {}", noon(171), noon(354));
     // A north façade has no sun in December at all, but early and late in June.
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.site.azimuth = 0.0;
     apply(&mut harness, Command::Scene(Box::new(scene)));
-    let north = harness.state().results.year.value.clone().unwrap();
+    let north = harness.state().shell.results.year.value.clone().unwrap();
     assert!(north.hours[24 * 354..24 * 355].iter().all(Option::is_none));
     assert!(north.hours[24 * 171 + 6].is_some() && north.hours[24 * 171 + 12].is_none());
 }
@@ -234,19 +238,19 @@ fn the_year_of_control_knows_nights_and_the_suns_half_of_the_day() {
 #[test]
 fn a_product_without_states_cannot_be_controlled_and_says_so() {
     let mut harness = window();
-    let found = harness.state().state.found.clone();
+    let found = harness.state().shell.state.found.clone();
     let still = found.entries.iter().find(|entry| entry.states.len() == 1).unwrap();
     apply(&mut harness, Command::Select(still.key.clone()));
     apply(&mut harness, Command::Control(ControlMode::Din5034));
-    assert_eq!(harness.state().state.control_mode(), ControlMode::Fixed);
-    assert!(harness.state().results.year.value.is_none());
+    assert_eq!(harness.state().shell.state.control_mode(), ControlMode::Fixed);
+    assert!(harness.state().shell.results.year.value.is_none());
 }
 
 #[test]
 fn the_lid_is_written_as_luminaire_files_that_hold_its_flux() {
     let mut harness = window();
     select_blind(&mut harness);
-    let lid = harness.state().results.lid.value.clone().expect("a LID");
+    let lid = harness.state().shell.results.lid.value.clone().expect("a LID");
     let flux = lid.flux.value;
     assert!(flux > 0.0);
     let folder = tempfile::tempdir().unwrap();
@@ -273,7 +277,7 @@ fn the_lid_is_written_as_luminaire_files_that_hold_its_flux() {
 fn what_is_written_waits_for_what_is_being_computed() {
     let mut harness = window();
     apply(&mut harness, Command::Select("clear-double".into()));
-    let before = harness.state().results.lid.value.as_ref().expect("a LID").flux.value;
+    let before = harness.state().shell.results.lid.value.as_ref().expect("a LID").flux.value;
     let folder = tempfile::tempdir().unwrap();
     let (lid, table) = (folder.path().join("opal.ldt"), folder.path().join("opal.csv"));
     let room = TILES.iter().find(|entry| entry.tile.title == "Room").unwrap().tile;
@@ -282,11 +286,11 @@ fn what_is_written_waits_for_what_is_being_computed() {
     harness.state_mut().apply(Command::Write(PathUse::ExportLid, lid.clone()));
     harness.state_mut().apply(Command::Write(PathUse::ExportTile(room), table.clone()));
     settle(&mut harness);
-    let flux = harness.state().results.lid.value.as_ref().unwrap().flux.value;
+    let flux = harness.state().shell.results.lid.value.as_ref().unwrap().flux.value;
     assert!((flux / before - 1.0).abs() > 0.1, "{flux} {before}");
     let written = eulumdat::read(&std::fs::read(lid).unwrap()).unwrap();
     assert!((written.flux() / flux - 1.0).abs() < 2e-3, "{} {flux} {before}", written.flux());
-    let total = harness.state().results.room.value.as_ref().unwrap().total(0).value;
+    let total = harness.state().shell.results.room.value.as_ref().unwrap().total(0).value;
     let text = std::fs::read_to_string(table).unwrap();
     let first: f64 = text.lines().nth(1).unwrap().split(',').nth(3).unwrap().parse().unwrap();
     assert!((first / total - 1.0).abs() < 1e-3, "{first} {total}");
@@ -313,7 +317,7 @@ fn every_tile_is_written_as_numbers() {
 
 fn import(harness: &mut Harness<'_, App>, path: PathBuf) {
     apply(harness, Command::OpenPaths(vec![path]));
-    let import = harness.state().state.import.as_ref().expect("an import sheet");
+    let import = harness.state().imports.open().expect("an import sheet");
     assert!(import.failures.is_empty(), "{:?}", import.failures);
     apply(harness, Command::AddImport);
 }
@@ -322,7 +326,7 @@ fn import(harness: &mut Harness<'_, App>, path: PathBuf) {
 fn a_klems_file_of_our_own_comes_in_is_found_and_goes_out_again() {
     let mut harness = window();
     let product = select_blind(&mut harness);
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     let mut dataset = (*shelf.load(&product.key, Some(&product.states[0].key)).unwrap()).clone();
     dataset.name = "Quux lamella".to_owned();
     dataset.state = String::new();
@@ -331,21 +335,21 @@ fn a_klems_file_of_our_own_comes_in_is_found_and_goes_out_again() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("quux.xml");
     std::fs::write(&path, bytes).unwrap();
-    let before = harness.state().state.found.total;
+    let before = harness.state().shell.state.found.total;
     import(&mut harness, path);
-    assert_eq!(harness.state().state.found.total, before + 1);
+    assert_eq!(harness.state().shell.state.found.total, before + 1);
     apply(&mut harness, Command::Find(Query { text: "quux".to_owned(), ..Query::default() }));
-    let found = harness.state().state.found.clone();
+    let found = harness.state().shell.state.found.clone();
     assert_eq!(found.entries.len(), 1);
     assert!((found.entries[0].tau_hemispherical.unwrap() - tau).abs() < 0.01, "{tau}");
     assert!(means(&harness).0 > 0.0);
     for _ in 0..3 {
-        if harness.state().state.found.total > before {
+        if harness.state().shell.state.found.total > before {
             harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
             settle(&mut harness);
         }
     }
-    assert_eq!(harness.state().state.found.total, before);
+    assert_eq!(harness.state().shell.state.found.total, before);
     assert!(shelf.search(&Query { text: "quux".to_owned(), ..Query::default() }).unwrap().entries.is_empty());
 }
 
@@ -354,10 +358,10 @@ fn a_makers_file_lights_the_room() {
     let Some(folder) = data("data/bsdf/clear_and_venetian_w7") else { return };
     let file = walk(&folder).into_iter().next().unwrap();
     let mut harness = window();
-    let before = harness.state().state.found.total;
+    let before = harness.state().shell.state.found.total;
     import(&mut harness, file);
-    assert_eq!(harness.state().state.found.total, before + 1);
-    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    assert_eq!(harness.state().shell.state.found.total, before + 1);
+    let dataset = harness.state().shell.state.dataset.value.clone().unwrap();
     let tau = dataset.transmission().unwrap().tau_hemispherical();
     assert!(tau > 0.0 && tau < 1.0, "{tau}");
     let (total, direct) = means(&harness);

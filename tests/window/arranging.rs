@@ -2,13 +2,12 @@
 
 use crate::driven::{Idle, apply, frames, settle, window};
 use cfs::app::App;
-use cfs::app::arrange::{Arrange, Preset, Way};
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
 use cfs::app::session::{Kept, Snapshot};
-use cfs::app::state::{Settings, State};
+use cfs::app::shell::error::AppError;
 use cfs::app::tiles::TILES;
+use cfs::app::tiles::arrange::{Arrange, Preset, Way};
 use cfs::compute::estimate::Progress;
 use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
@@ -96,7 +95,7 @@ fn presets_show_their_tiles_and_reset_shows_all() {
     assert_eq!(in_sight(&harness), ["BTDF", "Transmittance", "Sky"]);
     arrange(&mut harness, Arrange::Preset(Preset::All));
     assert_eq!(in_sight(&harness), all);
-    assert_eq!(harness.state().state.settings.layout, None);
+    assert_eq!(harness.state().shell.state.settings.layout, None);
 }
 
 #[test]
@@ -117,7 +116,7 @@ fn a_tile_is_dragged_by_its_head_into_another_and_becomes_its_tab() {
     let tabs = ["Control", "Sky"].iter().filter(|title| seen.contains(title)).count();
     // The year comes out from behind the control.
     assert!(tabs == 1 && seen.len() == 6 && seen.contains(&"Year"), "{seen:?}");
-    assert!(harness.state().state.settings.layout.is_some());
+    assert!(harness.state().shell.state.settings.layout.is_some());
 }
 
 #[test]
@@ -132,7 +131,7 @@ fn keys_walk_the_tiles_move_them_and_turn_their_tabs() {
     harness.run_steps(3);
     assert!(focused(&harness, "BTDF"));
     // Arrow keys at a head go to the neighbours and leave the clock alone.
-    let title = cfs::app::title::title(&harness.state().state);
+    let title = cfs::app::title::title(&harness.state().shell.state);
     harness.key_press(Key::ArrowDown);
     harness.run_steps(3);
     assert!(focused(&harness, "LID"));
@@ -145,7 +144,7 @@ fn keys_walk_the_tiles_move_them_and_turn_their_tabs() {
     let after = places(&harness);
     assert_eq!([after[1], after[0]], before);
     assert!(focused(&harness, "BTDF"), "the keyboard stays with the tile that moves");
-    assert_eq!(cfs::app::title::title(&harness.state().state), title);
+    assert_eq!(cfs::app::title::title(&harness.state().shell.state), title);
     harness.key_press(Key::Enter);
     settle(&mut harness);
     assert_eq!(in_sight(&harness), ["BTDF"]);
@@ -170,14 +169,12 @@ fn keys_walk_the_tiles_move_them_and_turn_their_tabs() {
 fn the_layout_is_kept_and_a_broken_one_falls_back_with_a_word() {
     let mut harness = idle();
     arrange(&mut harness, Arrange::Preset(Preset::Maker));
-    let kept = serde_json::to_vec(&Snapshot::of(&harness.state().state).kept(String::new())).unwrap();
-    let mut state = State::new(Settings::default());
-    Kept::read(&kept).unwrap().put_into(&mut state).unwrap();
+    let kept = serde_json::to_vec(&Snapshot::of(harness.state().content()).kept(String::new())).unwrap();
     let mut again = frames(App::for_test(Arc::new(Idle)), [1280.0, 720.0]);
-    again.state_mut().state.settings = state.settings;
+    again.state_mut().restore(&Kept::read(&kept).unwrap()).unwrap();
     settle(&mut again);
     assert_eq!(in_sight(&again), in_sight(&harness));
-    again.state_mut().state.settings.layout = Some("{\"version\":1".to_owned());
+    again.state_mut().shell.state.settings.layout = Some("{\"version\":1".to_owned());
     settle(&mut again);
     assert_eq!(in_sight(&again).len(), 6);
     assert!(again.query_all_by_label_contains("tile layout cannot be read").next().is_some());
@@ -195,10 +192,10 @@ fn what_is_hidden_computes_nothing_until_it_is_shown() {
         apply(&mut harness, Command::Hour(hours));
     }
     assert_eq!(engine.counts(), [1, 1, 0]);
-    assert!(harness.state().results.room.stale);
+    assert!(harness.state().shell.results.room.stale);
     apply(&mut harness, Command::Maximise(None));
     assert_eq!(engine.counts(), [2, 2, 0]);
-    assert!(!harness.state().results.room.stale);
+    assert!(!harness.state().shell.results.room.stale);
     arrange(&mut harness, Arrange::Preset(Preset::Maker));
     apply(&mut harness, Command::Hour(-1));
     let before = engine.counts();

@@ -2,9 +2,9 @@
 
 use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::catalogue::shelf::{Addition, Query};
 use cfs::app::command::Command;
-use cfs::app::shelf::{Addition, Query};
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
 use cfs::app::state::{CatalogueState, State};
 use cfs::app::tiles::TILES;
 use cfs::app::title;
@@ -31,7 +31,7 @@ fn find(harness: &mut Harness<'_, App>, text: &str) {
 }
 
 fn state<'a>(harness: &'a Harness<'_, App>) -> &'a State {
-    &harness.state().state
+    &harness.state().shell.state
 }
 
 /// Stores a product whose datasets have a name of their own, as a maker's file has; the window does not know of it.
@@ -76,7 +76,7 @@ fn a_product_keeps_its_name_whatever_is_searched() {
     assert_eq!(title::selection(state(&h)), "My venetian 45");
     assert!(title::title(state(&h)).contains("My venetian 45") && h.query_by_label_contains("Clear45").is_none());
     // The luminaire is called like the product, too.
-    let lid = h.state().results.lid.value.clone().expect("a LID");
+    let lid = h.state().shell.results.lid.value.clone().expect("a LID");
     assert!(format!("{:?}", lid.description).contains("My venetian 45"), "{:?}", lid.description);
 }
 
@@ -158,12 +158,12 @@ fn the_control_tile_says_why_nothing_moves() {
     assert!(h.query_by_label(fixed).is_some());
     assert!(h.query_by_label_contains("manual").is_none(), "what does not move is not set by hand");
     // Without a product nothing is said of one.
-    let known = std::mem::replace(&mut h.state_mut().state.catalogue, CatalogueState::Opening);
-    h.state_mut().state.product = None;
+    let known = std::mem::replace(&mut h.state_mut().shell.state.catalogue, CatalogueState::Opening);
+    h.state_mut().shell.state.product = None;
     h.run_steps(2);
     assert!(h.query_all_by_label("Opening the catalogue…").count() > 0);
-    h.state_mut().state.catalogue = known;
-    h.state_mut().state.document.selection.product.clear();
+    h.state_mut().shell.state.catalogue = known;
+    h.state_mut().shell.state.document.selection.product.clear();
     h.run_steps(2);
     assert!(h.query_all_by_label("No product selected: select one in the catalogue.").count() > 0);
     assert!(h.query_by_label_contains("has only one state").is_none());

@@ -1,9 +1,9 @@
 //! A catalogue of five products, and an engine that knows their figures.
 
 use crate::driven::Idle;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
-use cfs::app::shelf::{Addition, Query, Shelf};
+use cfs::app::catalogue::shelf::{Addition, Query, Shelf};
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::shell::error::AppError;
 use cfs::catalogue::NewProduct;
 use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::estimate::{Cancelled, Estimate, Progress};
@@ -114,7 +114,7 @@ pub fn addition(key: &str, name: &str, tau: f64) -> Addition {
 
 /// A catalogue of four products with figures and one without.
 pub fn shelf() -> Result<Arc<dyn Shelf>, AppError> {
-    let shelf = cfs::app::backend::memory_shelf()?;
+    let shelf = cfs::app::results::backend::memory_shelf()?;
     let all: Vec<String> = shelf.search(&Query::default())?.entries.iter().map(|entry| entry.key.clone()).collect();
     for key in &all {
         shelf.delete(key)?;

@@ -6,14 +6,14 @@ use crate::driven::{apply, coarsen, frames, frames_in, settle, step_until};
 use crate::legible::can_be_read;
 use crate::legible::inspect::words;
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, ideals_shelf};
-use cfs::app::choose::{ChooseAct, objectives_of};
+use cfs::app::catalogue::shelf::Query;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::export_choices::{Preview, What};
-use cfs::app::jobs::Lane;
-use cfs::app::shelf::Query;
-use cfs::app::theme::ThemeChoice;
+use cfs::app::display::theme::ThemeChoice;
+use cfs::app::export::choices::{Preview, What};
+use cfs::app::rank::{ChooseAct, objectives_of};
+use cfs::app::results::backend::{StudyEngine, ideals_shelf};
+use cfs::app::shell::jobs::Lane;
 use cfs::app::tiles::CHOOSE;
 use cfs::app::year::YearAct;
 use cfs::report::TileKind;
@@ -51,20 +51,20 @@ fn ranked() -> (Harness<'static, App>, Arc<Ranks>) {
 /// Keys in the order that the window has them in.
 fn order(harness: &Harness<'_, App>) -> String {
     let app = harness.state();
-    let figures = app.results.rank.value.as_ref().expect("a ranking");
-    let list = figures.shortlist("", &objectives_of(&app.state.document.scene)).unwrap();
-    list.shown(&app.state.settings.choose).iter().map(|entry| entry.product.as_str()).collect()
+    let figures = app.shell.results.rank.value.as_ref().expect("a ranking");
+    let list = figures.shortlist("", &objectives_of(&app.shell.state.document.scene)).unwrap();
+    list.shown(&app.shell.state.settings.choose).iter().map(|entry| entry.product.as_str()).collect()
 }
 
 fn look(harness: &mut Harness<'_, App>, change: impl FnOnce(&mut Look)) {
-    let mut look = harness.state().state.settings.choose.clone();
+    let mut look = harness.state().shell.state.settings.choose.clone();
     change(&mut look);
     apply(harness, Command::Choose(ChooseAct::Look(Box::new(look))));
 }
 
 /// Weights of the objectives in their order.
 fn weigh(harness: &mut Harness<'_, App>, weights: &[f64]) {
-    let mut list = objectives_of(&harness.state().state.document.scene);
+    let mut list = objectives_of(&harness.state().shell.state.document.scene);
     for (one, weight) in list.iter_mut().zip(weights) {
         one.weight = *weight;
     }
@@ -74,14 +74,14 @@ fn weigh(harness: &mut Harness<'_, App>, weights: &[f64]) {
 #[test]
 fn a_click_ranks_the_catalogue_and_undo_takes_what_it_put_into_the_scene() {
     let (mut harness, engine) = window();
-    let before = harness.state().state.document.scene.clone();
+    let before = harness.state().shell.state.document.scene.clone();
     assert_eq!((&before.year, &before.rank), (&None, &None));
-    assert!(harness.state().results.rank.value.is_none(), "nothing is computed that nobody asked for");
+    assert!(harness.state().shell.results.rank.value.is_none(), "nothing is computed that nobody asked for");
     harness.get_by_label(ASK).click();
-    step_until(&mut harness, "it begins", |app| app.works_in(Lane::Rank) || app.results.rank.value.is_some());
+    step_until(&mut harness, "it begins", |app| app.works_in(Lane::Rank) || app.shell.results.rank.value.is_some());
     settle(&mut harness);
     assert_eq!(engine.years.load(Ordering::Relaxed), 5);
-    let scene = &harness.state().state.document.scene;
+    let scene = &harness.state().shell.state.document.scene;
     let counts: Vec<&str> = scene.rank.as_ref().unwrap().objective.iter().map(|one| one.figure.as_str()).collect();
     assert_eq!(counts[..2], ["lighting.LENI_kWh_m2", "UDI_a"]);
     assert!(counts.iter().any(|figure| figure.starts_with("glare.Ev_1.")) && counts.contains(&"movements"));
@@ -92,7 +92,7 @@ fn a_click_ranks_the_catalogue_and_undo_takes_what_it_put_into_the_scene() {
     harness.get_by_label("Empty frame: Excluded: no transmission for light from outside");
     assert_eq!(order(&harness).len(), 5);
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene, before);
+    assert_eq!(harness.state().shell.state.document.scene, before);
 }
 
 #[test]
@@ -101,12 +101,12 @@ fn coarse_results_come_first_a_stop_keeps_them_and_it_goes_on_from_there() {
     engine.hold.store(true, Ordering::Relaxed);
     harness.state_mut().apply(Command::Choose(ChooseAct::Rank));
     step_until(&mut harness, "data on cells", |app| {
-        app.results.rank.value.as_ref().is_some_and(|figures| figures.known.len() == 5)
+        app.shell.results.rank.value.as_ref().is_some_and(|figures| figures.known.len() == 5)
     });
     harness.run_steps(2);
     assert!(harness.state().works_in(Lane::Rank), "beams as they are are still to come");
     assert_eq!(order(&harness).len(), 4);
-    let figures = harness.state().results.rank.value.clone().unwrap();
+    let figures = harness.state().shell.results.rank.value.clone().unwrap();
     assert_eq!(figures.unfinished(), 5);
     assert!(words(&harness).iter().any(|text| text.contains("5 products")), "{:?}", words(&harness));
     harness.get_by_label("Stop").click();
@@ -119,7 +119,7 @@ fn coarse_results_come_first_a_stop_keeps_them_and_it_goes_on_from_there() {
     harness.run_steps(2);
     settle(&mut harness);
     assert_eq!(engine.years.load(Ordering::Relaxed), 5);
-    assert_eq!(harness.state().results.rank.value.as_ref().unwrap().unfinished(), 0);
+    assert_eq!(harness.state().shell.results.rank.value.as_ref().unwrap().unfinished(), 0);
     assert!(harness.query_by_label("Continue").is_none());
 }
 
@@ -139,12 +139,12 @@ fn weights_and_further_objectives_order_anew_without_computing() {
         harness.run_steps(1);
     }
     settle(&mut harness);
-    let weight = harness.state().state.document.scene.rank.as_ref().unwrap().objective[0].weight;
+    let weight = harness.state().shell.state.document.scene.rank.as_ref().unwrap().objective[0].weight;
     assert!(weight > 4.0, "{weight}");
     weigh(&mut harness, &[5.0, 0.1]);
     assert_eq!(order(&harness), "dcba");
     // One more, whose figure is known of all.
-    let mut list = objectives_of(&harness.state().state.document.scene);
+    let mut list = objectives_of(&harness.state().shell.state.document.scene);
     list.push(cfs::study::rank_keys::ObjectiveKeys {
         figure: "UDI_x".to_owned(),
         better: cfs::study::rank_keys::BetterKey::Less,
@@ -152,12 +152,12 @@ fn weights_and_further_objectives_order_anew_without_computing() {
         best: 0.0,
         weight: 50.0,
     });
-    let before = harness.state().state.document.scene.clone();
+    let before = harness.state().shell.state.document.scene.clone();
     apply(&mut harness, Command::Choose(ChooseAct::Objectives(list, true)));
     assert_eq!(order(&harness), "acdb");
     assert!(harness.query_by_label("Compute").is_none() && harness.query_by_label("Rank again").is_none());
     // One that is not.
-    let mut list = objectives_of(&harness.state().state.document.scene);
+    let mut list = objectives_of(&harness.state().shell.state.document.scene);
     list[4].figure = "sun_hours_1000".to_owned();
     apply(&mut harness, Command::Choose(ChooseAct::Objectives(list, true)));
     assert_eq!(engine.years.load(Ordering::Relaxed), 5);
@@ -169,14 +169,14 @@ fn weights_and_further_objectives_order_anew_without_computing() {
     assert_eq!(order(&harness).len(), 4);
     apply(&mut harness, Command::Undo);
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene, before);
+    assert_eq!(harness.state().shell.state.document.scene, before);
 }
 
 #[test]
 fn another_room_is_told_going_back_costs_nothing_and_a_new_product_costs_one() {
     let (mut harness, engine) = ranked();
     assert!(harness.query_by_label("Rank again").is_none());
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.site.azimuth = 90.0;
     apply(&mut harness, Command::Scene(Box::new(scene)));
     assert!(harness.query_by_label("outdated").is_some());
@@ -185,18 +185,18 @@ fn another_room_is_told_going_back_costs_nothing_and_a_new_product_costs_one() {
     settle(&mut harness);
     assert_eq!(engine.years.load(Ordering::Relaxed), 10);
     // Back: what was found there is shown at once.
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.site.azimuth = 180.0;
     apply(&mut harness, Command::Scene(Box::new(scene)));
     assert!(harness.query_by_label("outdated").is_none() && harness.query_by_label("Rank again").is_none());
-    assert_eq!(harness.state().results.rank.value.as_ref().unwrap().asked.scene.site.azimuth, 180.0);
+    assert_eq!(harness.state().shell.results.rank.value.as_ref().unwrap().asked.scene.site.azimuth, 180.0);
     // Neither another moment nor another product in the room makes another question.
     apply(&mut harness, Command::Hour(2));
     apply(&mut harness, Command::Select("c".to_owned()));
     assert!(harness.query_by_label("Rank again").is_none());
     assert_eq!(engine.years.load(Ordering::Relaxed), 10);
     // The catalogue has one more; the others are known.
-    harness.state().state.shelf().unwrap().add(&addition("f", "Foil", 0.1)).unwrap();
+    harness.state().shell.state.shelf().unwrap().add(&addition("f", "Foil", 0.1)).unwrap();
     apply(&mut harness, Command::Choose(ChooseAct::Rank));
     assert_eq!(engine.years.load(Ordering::Relaxed), 11);
     look(&mut harness, |look| look.excluded = true);
@@ -232,17 +232,20 @@ fn keys_walk_enter_takes_into_the_room_and_undo_takes_it_back() {
         harness.key_press(key);
         harness.run_steps(2);
     }
-    assert_eq!(harness.state().state.settings.choose.product.as_deref(), Some("c"));
-    let moment = harness.state().state.document.scene.sky.clone();
+    assert_eq!(harness.state().shell.state.settings.choose.product.as_deref(), Some("c"));
+    let moment = harness.state().shell.state.document.scene.sky.clone();
     harness.key_press(Key::Enter);
     harness.run_steps(2);
     settle(&mut harness);
-    let in_room = |harness: &Harness<'_, App>| match &harness.state().state.document.scene.aperture[0].system {
+    let in_room = |harness: &Harness<'_, App>| match &harness.state().shell.state.document.scene.aperture[0].system {
         SystemKeys::Catalogue { key, .. } => key.clone(),
         other => panic!("{other:?}"),
     };
-    assert_eq!((in_room(&harness), harness.state().state.document.selection.product.clone()), ("c".into(), "c".into()));
-    assert_eq!(harness.state().state.document.scene.sky, moment, "arrows were the list's");
+    assert_eq!(
+        (in_room(&harness), harness.state().shell.state.document.selection.product.clone()),
+        ("c".into(), "c".into())
+    );
+    assert_eq!(harness.state().shell.state.document.scene.sky, moment, "arrows were the list's");
     apply(&mut harness, Command::Undo);
     assert_eq!(in_room(&harness), "a");
     // Two clicks into the tray: the row, the button.
@@ -251,7 +254,8 @@ fn keys_walk_enter_takes_into_the_room_and_undo_takes_it_back() {
     settle(&mut harness);
     harness.get_by_label("Add to comparison").click();
     settle(&mut harness);
-    let tray: Vec<String> = harness.state().state.document.scene.compare.iter().map(|one| one.name.clone()).collect();
+    let tray: Vec<String> =
+        harness.state().shell.state.document.scene.compare.iter().map(|one| one.name.clone()).collect();
     assert_eq!(tray, ["Deep screen"]);
     harness.get_by_label("Put into the room").click();
     settle(&mut harness);
@@ -263,7 +267,7 @@ fn keys_walk_enter_takes_into_the_room_and_undo_takes_it_back() {
 #[test]
 fn a_chosen_aperture_is_filled_and_the_other_one_stays() {
     let (mut harness, _) = window();
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     let mut second = scene.aperture[0].clone();
     scene.aperture[0].size[0] = 1.0;
     (second.origin[0], second.size[0]) = (2.0, 1.0);
@@ -271,12 +275,12 @@ fn a_chosen_aperture_is_filled_and_the_other_one_stays() {
     apply(&mut harness, Command::Scene(Box::new(scene)));
     look(&mut harness, |look| look.aperture = Some(1));
     apply(&mut harness, Command::Choose(ChooseAct::Rank));
-    let asked = &harness.state().results.rank.value.as_ref().unwrap().asked.scene;
+    let asked = &harness.state().shell.results.rank.value.as_ref().unwrap().asked.scene;
     let open: Vec<bool> = asked.aperture.iter().map(|one| one.system == SystemKeys::Ranked).collect();
     assert_eq!(open, [false, true]);
     apply(&mut harness, Command::Choose(ChooseAct::IntoRoom("d".to_owned())));
     let keys = |harness: &Harness<'_, App>| {
-        let list = &harness.state().state.document.scene.aperture;
+        let list = &harness.state().shell.state.document.scene.aperture;
         list.iter().map(|one| format!("{:?}", one.system)).collect::<Vec<_>>()
     };
     assert!(keys(&harness)[0].contains("\"a\"") && keys(&harness)[1].contains("\"d\""), "{:?}", keys(&harness));
@@ -294,8 +298,8 @@ fn why_one_is_before_another_adds_up_in_words() {
     let line = said.iter().find(|text| text.contains("by Lighting energy")).unwrap_or_else(|| panic!("{said:?}"));
     assert!(line.contains("4.00 kWh/m² against 12.0 kWh/m² (−8.00 kWh/m² in winter, no sun, rear)"), "{line}");
     let app = harness.state();
-    let list = app.results.rank.value.as_ref().unwrap();
-    let list = list.shortlist("", &objectives_of(&app.state.document.scene)).unwrap();
+    let list = app.shell.results.rank.value.as_ref().unwrap();
+    let list = list.shortlist("", &objectives_of(&app.shell.state.document.scene)).unwrap();
     let reason = list.reason("d", Some("b")).unwrap();
     let sum: f64 = reason.terms.iter().map(|term| term.score_difference).sum();
     let worth = |key: &str| list.entry(key).unwrap().score.value;
@@ -310,15 +314,18 @@ fn rows_are_filtered_sorted_and_handed_on() {
     let (mut harness, _) = ranked();
     harness.get_by_label("Sort by Product").click();
     settle(&mut harness);
-    assert_eq!((order(&harness), harness.state().state.settings.choose.sort.clone()), ("abdc".to_owned(), Sort::Name));
+    assert_eq!(
+        (order(&harness), harness.state().shell.state.settings.choose.sort.clone()),
+        ("abdc".to_owned(), Sort::Name)
+    );
     look(&mut harness, |look| look.words = "PANE".to_owned());
     assert_eq!(order(&harness), "ab");
     look(&mut harness, |look| (look.words, look.sort) = (String::new(), Sort::Score));
-    let mut choices = harness.state().state.settings.export.clone();
+    let mut choices = harness.state().shell.state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Choose);
     apply(&mut harness, Command::ExportTile(CHOOSE));
     apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
-    let shown = |harness: &Harness<'_, App>| match harness.state().state.export.shown.as_ref() {
+    let shown = |harness: &Harness<'_, App>| match harness.state().export.preview() {
         Some(Ok(Preview::Picture([width, height], ..))) => format!("{width} {height}"),
         Some(Ok(Preview::Text(text, _))) => text.clone(),
         Some(Err(error)) => panic!("{error}"),
@@ -345,17 +352,17 @@ fn rows_are_filtered_sorted_and_handed_on() {
 #[test]
 fn without_a_ranking_nothing_of_it_is_handed_on_and_an_empty_search_is_told() {
     let (mut harness, _) = window();
-    let mut choices = harness.state().state.settings.export.clone();
+    let mut choices = harness.state().shell.state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Choose);
     apply(&mut harness, Command::ExportTile(CHOOSE));
     apply(&mut harness, Command::ExportChoices(Box::new(choices)));
-    let Some(Err(told)) = &harness.state().state.export.shown else { panic!("a ranking out of nothing") };
+    let Some(Err(told)) = &harness.state().export.preview() else { panic!("a ranking out of nothing") };
     assert!(told.contains("compute one in the Ranking tile"), "{told}");
     apply(&mut harness, Command::Sheet(None));
     apply(&mut harness, Command::Find(Query { text: "qqqqqqqq".to_owned(), ..Query::default() }));
     look(&mut harness, |look| look.in_search = true);
     apply(&mut harness, Command::Choose(ChooseAct::Rank));
-    let error = harness.state().results.rank.error.clone().expect("it is told");
+    let error = harness.state().shell.results.rank.error.clone().expect("it is told");
     assert!(error.contains("No product matches"), "{error}");
 }
 
@@ -381,20 +388,20 @@ fn what_the_ranking_says_of_a_product_is_what_its_year_says() {
     let mut harness = frames(app, [1280.0, 720.0]);
     coarsen(&mut harness, [2, 1]);
     settle(&mut harness);
-    let found = harness.state().state.found.clone();
+    let found = harness.state().shell.state.found.clone();
     let key = |name: &str| found.entries.iter().find(|entry| entry.name == name).unwrap().key.clone();
     let (diffuser, opening) = (key("Ideal diffuser"), key("Clear opening"));
     apply(&mut harness, Command::Maximise(Some(CHOOSE)));
     apply(&mut harness, Command::Choose(ChooseAct::Rank));
-    let error = harness.state().results.rank.error.clone();
-    let figures = harness.state().results.rank.value.clone().unwrap_or_else(|| panic!("{error:?}"));
+    let error = harness.state().shell.results.rank.error.clone();
+    let figures = harness.state().shell.results.rank.value.clone().unwrap_or_else(|| panic!("{error:?}"));
     assert_eq!((figures.known.len(), figures.unfinished()), (2, 0));
     apply(&mut harness, Command::Choose(ChooseAct::IntoRoom(diffuser.clone())));
     apply(&mut harness, Command::Year(YearAct::Compute));
-    let annual = harness.state().results.annual.value.clone().unwrap();
+    let annual = harness.state().shell.results.annual.value.clone().unwrap();
     let useful = annual.figures[0].autonomy.udi_a.iter().sum::<f64>() / 2.0;
     let energy = annual.figures[0].lighting.as_ref().unwrap().total();
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     let list = figures.shortlist("", &objectives_of(&scene)).unwrap();
     let own = list.entry(&diffuser).unwrap();
     assert!((own.figures[0].value - energy).abs() < 1e-6 * energy, "{:?} {energy}", own.figures);
@@ -402,6 +409,6 @@ fn what_the_ranking_says_of_a_product_is_what_its_year_says() {
     // Computing the year and weighing are no reason to rank again, and weights are none to compute the year again.
     apply(&mut harness, Command::Maximise(Some(CHOOSE)));
     weigh(&mut harness, &[3.0]);
-    assert!(!harness.state().results.rank.stale && annual.is_of(&harness.state().state.document.scene));
+    assert!(!harness.state().shell.results.rank.stale && annual.is_of(&harness.state().shell.state.document.scene));
     assert!(list.entry(&opening).is_some());
 }

@@ -2,16 +2,15 @@
 
 use crate::driven::{Idle, apply, coarsen, frames, harness, services, settle, step_until};
 use cfs::app::App;
-use cfs::app::backend::{ideals_shelf, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
-use cfs::app::jobs::Lane;
-use cfs::app::language::LanguageChoice;
-use cfs::app::room_look::{RoomLook, RoomView};
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::results::backend::{ideals_shelf, memory_shelf};
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::scene::room_look::{RoomLook, RoomView};
 use cfs::app::session::{Kept, Snapshot};
-use cfs::app::state::{Settings, State};
+use cfs::app::shell::error::AppError;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::tiles::{TILES, compared};
 use cfs::compute::estimate::{Estimate, Progress};
 use cfs::study::SceneFile;
@@ -30,7 +29,7 @@ fn act(harness: &mut Harness<'_, App>, act: Act) {
 }
 
 fn tray(harness: &Harness<'_, App>) -> Vec<String> {
-    harness.state().state.document.scene.compare.iter().map(label).collect()
+    harness.state().shell.state.document.scene.compare.iter().map(label).collect()
 }
 
 /// A room twice as bright behind the clear opening; counts what it is asked.
@@ -106,14 +105,14 @@ fn the_tray_is_filled_by_a_key_kept_with_scene_and_session_and_undone() {
     apply(&mut harness, Command::Redo);
     assert!(harness.query_by_label("Candidate 1 Nothing").is_some(), "the tray is in sight");
     // With the scene, and with the session.
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     let text = toml::to_string(&state.document.scene).unwrap();
     assert!(text.contains("[[compare]]"));
     assert_eq!(SceneFile::parse(&text).unwrap(), state.document.scene);
-    let kept = serde_json::to_vec(&Snapshot::of(state).kept(String::new())).unwrap();
-    let mut other = State::new(Settings::default());
-    Kept::read(&kept).unwrap().put_into(&mut other).unwrap();
-    assert_eq!(other.document.scene.compare, state.document.scene.compare);
+    let kept = serde_json::to_vec(&Snapshot::of(harness.state().content()).kept(String::new())).unwrap();
+    let mut other = App::for_test(Arc::new(Idle));
+    other.restore(&Kept::read(&kept).unwrap()).unwrap();
+    assert_eq!(other.shell.state.document.scene.compare, state.document.scene.compare);
     // A reset of the scene is none of the tray.
     apply(&mut harness, Command::ResetScene);
     assert_eq!(tray(&harness).len(), 2);
@@ -126,7 +125,7 @@ fn a_row_of_the_catalogue_goes_in_and_out_by_its_sign_and_six_are_most() {
     let mut harness = harness(services(memory_shelf));
     coarsen(&mut harness, [1, 2]);
     settle(&mut harness);
-    let entries = harness.state().state.found.entries.clone();
+    let entries = harness.state().shell.state.found.entries.clone();
     for entry in &entries[..6] {
         act(&mut harness, Act::AddProduct(entry.key.clone()));
     }
@@ -134,7 +133,7 @@ fn a_row_of_the_catalogue_goes_in_and_out_by_its_sign_and_six_are_most() {
     act(&mut harness, Act::AddProduct(entries[7].key.clone()));
     assert_eq!(tray(&harness).len(), 6);
     // A moving product comes in by its rule.
-    let moving = harness.state().state.document.scene.compare.iter().find(|one| one.control.is_some());
+    let moving = harness.state().shell.state.document.scene.compare.iter().find(|one| one.control.is_some());
     assert!(moving.is_some_and(|one| one.name.contains(", ")), "{:?}", tray(&harness));
     let first = entries[0].name.clone();
     harness.get_by_label(&format!("Remove from the comparison: {first}")).click();
@@ -190,9 +189,11 @@ fn a_comparison_under_way_is_told_and_stops_when_asked() {
 #[test]
 fn the_other_one_is_shown_by_a_key_and_the_scene_stays_what_it_is() {
     let (mut harness, engine) = two();
-    let scene = harness.state().state.document.clone();
+    let scene = harness.state().shell.state.document.clone();
     let rooms = engine.rooms.load(Ordering::SeqCst);
-    let shown = |app: &App| app.compare.shown(&app.state, &app.results).1.room.value.as_ref().unwrap().total(0).value;
+    let shown = |app: &App| {
+        app.compare.shown(&app.shell.state, &app.shell.results).1.room.value.as_ref().unwrap().total(0).value
+    };
     assert_eq!(shown(harness.state()), 1000.0);
     harness.key_press(Key::X);
     harness.run_steps(2);
@@ -200,15 +201,15 @@ fn the_other_one_is_shown_by_a_key_and_the_scene_stays_what_it_is() {
     assert!(harness.query_by_label("1 Clear opening").is_some(), "which one is shown is said");
     settle(&mut harness);
     assert_eq!(engine.rooms.load(Ordering::SeqCst), rooms, "it was known");
-    assert_eq!(harness.state().state.document, scene);
+    assert_eq!(harness.state().shell.state.document, scene);
     harness.key_press(Key::X);
     settle(&mut harness);
     assert_eq!(shown(harness.state()), 1000.0);
     // It can become the scene, and undo goes back.
     act(&mut harness, Act::Take(0));
-    assert_eq!(harness.state().state.document.selection.product, "clear-opening");
+    assert_eq!(harness.state().shell.state.document.selection.product, "clear-opening");
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.selection.product, "ideal-diffuser");
+    assert_eq!(harness.state().shell.state.document.selection.product, "ideal-diffuser");
 }
 
 #[test]
@@ -232,7 +233,7 @@ fn all_looks_draw_all_tiles_and_the_table_marks_what_is_better_by_more_than_the_
         assert!(errors.is_empty(), "{errors:?}");
     }
     // A clear opening sends nothing up, a diffuser half: the better one is marked.
-    let rows = harness.state().rows();
+    let rows = harness.state().compare.rows();
     let ceiling = rows.iter().find(|row| row.figure.key == "to_ceiling").unwrap();
     assert!(ceiling.values[0].unwrap().value < 1e-6 && (ceiling.values[1].unwrap().value - 0.5).abs() < 1e-6);
     assert!(ceiling.values[2].unwrap().error.is_some_and(|error| error > 0.0));
@@ -259,7 +260,7 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     settle(&mut harness);
     apply(&mut harness, Command::Select("clear-double".to_owned()));
     apply(&mut harness, Command::Like(None));
-    let found = harness.state().state.found.clone();
+    let found = harness.state().shell.state.found.clone();
     let like = found.like.as_ref().unwrap();
     assert_eq!((like.key.as_str(), like.distances.len()), ("clear-double", found.entries.len()));
     assert!(found.entries.iter().all(|entry| entry.key != "clear-double"));
@@ -268,7 +269,7 @@ fn products_like_the_shown_one_are_listed_with_their_distance() {
     assert!(["pane", "stack"].contains(&found.entries[0].kind.as_str()), "{:?}", found.entries[0].name);
     harness.get_by_label_contains("No longer similar to").click();
     settle(&mut harness);
-    assert!(harness.state().state.found.like.is_none());
+    assert!(harness.state().shell.state.found.like.is_none());
     assert!(harness.query_all_by_label_contains("Compare: ").all(|node| !node.accesskit_node().is_disabled()));
 }
 
@@ -288,7 +289,7 @@ fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
     coarsen(&mut harness, [2, 3]);
     settle(&mut harness);
     act(&mut harness, Act::AddProduct("ideal-diffuser".to_owned()));
-    harness.state_mut().state.document.scene.compare.push(of_file("Of a file"));
+    harness.state_mut().shell.state.document.scene.compare.push(of_file("Of a file"));
     for tile in ["BTDF", "Transmittance", "Sky", "LID", "Room"] {
         act(&mut harness, Act::Tile(tile));
         harness.run_steps(2);
@@ -300,7 +301,7 @@ fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
     // The same as the same system in the catalogue.
     act(&mut harness, Act::AddProduct("clear-double".to_owned()));
     act(&mut harness, Act::Look(Look::Figures));
-    let rows = harness.state().rows();
+    let rows = harness.state().compare.rows();
     let tau = &rows.iter().find(|row| row.figure.key == "tau_hemispherical").unwrap().values;
     let [file, product] = [tau[1].unwrap(), tau[2].unwrap()];
     assert!((file.value - product.value).abs() < 1e-3, "{file:?} {product:?}");
@@ -308,10 +309,10 @@ fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
     apply(&mut harness, Command::RoomLook(RoomLook { view: RoomView::Perspective, ..RoomLook::default() }));
     act(&mut harness, Act::SwapWith(1));
     let app = harness.state();
-    let (state, results) = app.compare.shown(&app.state, &app.results);
+    let (state, results) = app.compare.shown(&app.shell.state, &app.shell.results);
     assert_eq!(state.settings.room.view, RoomView::Perspective);
     let flux = |results: &cfs::app::state::Results| results.surfaces.value.as_ref().map(|one| one.light.flux.value);
-    let (other, own) = (flux(results).expect("surfaces of the other one"), flux(&app.results).unwrap());
+    let (other, own) = (flux(results).expect("surfaces of the other one"), flux(&app.shell.results).unwrap());
     assert!((other / own - 1.0).abs() > 1e-3, "{other} {own}");
 }
 
@@ -351,6 +352,6 @@ fn the_comparison_speaks_german() {
     }
     // What programs read stays English.
     let app = harness.state();
-    let table = cfs::study::comparison::csv(&app.rows(), &app.compare.names());
+    let table = cfs::study::comparison::csv(&app.compare.rows(), &app.compare.names());
     assert!(table.contains("more is better") && !table.contains("besser"), "{table}");
 }

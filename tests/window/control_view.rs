@@ -2,9 +2,9 @@
 
 use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::paint::tile::Status;
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
 use cfs::app::views::control::{self, Action, StatePoint};
 use cfs::study::scene_file::{ControlKeys, ControlMode};
 use egui::{Key, PointerButton, pos2};
@@ -179,7 +179,7 @@ fn window() -> Harness<'static, App> {
     let app = App::with_shelf(Arc::new(StudyEngine::default()), memory_shelf);
     let mut harness = frames(app, [1600.0, 900.0]);
     coarsen(&mut harness, [1, 2]);
-    let scene = &mut harness.state_mut().state.document.scene;
+    let scene = &mut harness.state_mut().shell.state.document.scene;
     // A lower and an upper part.
     scene.aperture[0].size[1] = 1.0;
     let mut upper = scene.aperture[0].clone();
@@ -196,26 +196,26 @@ fn parts_of_a_window_follow_rules_of_their_own_and_undo_takes_them_back() {
     apply(&mut h, Command::Select("venetian-80-72".into()));
     apply(&mut h, Command::Control(ControlMode::CutOff));
     let rules = |h: &Harness<'_, App>| {
-        let scene = &h.state().state.document.scene;
+        let scene = &h.state().shell.state.document.scene;
         [0, 1].map(|k| scene.aperture[k].control.as_ref().or(scene.control.as_ref()).map(|keys| keys.mode))
     };
     assert_eq!(rules(&h), [Some(ControlMode::CutOff); 2]);
     // Noon of the equinox at 41°: 2° of tilt by the closed form, up to the next state.
-    assert_eq!(h.state().state.shown_state, "5");
+    assert_eq!(h.state().shell.state.shown_state, "5");
     apply(&mut h, Command::ControlOf(Some(1)));
     apply(&mut h, Command::Control(ControlMode::RetroReflect));
     assert_eq!(rules(&h), [Some(ControlMode::CutOff), Some(ControlMode::RetroReflect)]);
-    assert_eq!(h.state().state.shown_state, "50");
+    assert_eq!(h.state().shell.state.shown_state, "50");
     // Hysteresis and dwell time are part of the year, which moves less often with them.
-    let free = h.state().results.year.value.as_ref().unwrap().movements;
+    let free = h.state().shell.results.year.value.as_ref().unwrap().movements;
     let keys = ControlKeys { dwell: Some(180.0), ..ControlKeys::of(ControlMode::RetroReflect) };
     apply(&mut h, Command::ControlKeys(Box::new(keys)));
-    assert!(h.state().results.year.value.as_ref().unwrap().movements < free);
+    assert!(h.state().shell.results.year.value.as_ref().unwrap().movements < free);
     apply(&mut h, Command::Control(ControlMode::Redirect));
     apply(&mut h, Command::Undo);
     assert_eq!(rules(&h)[1], Some(ControlMode::RetroReflect));
-    let again = toml::to_string(&h.state().state.document.scene).unwrap();
-    assert_eq!(cfs::study::SceneFile::parse(&again).unwrap(), h.state().state.document.scene);
+    let again = toml::to_string(&h.state().shell.state.document.scene).unwrap();
+    assert_eq!(cfs::study::SceneFile::parse(&again).unwrap(), h.state().shell.state.document.scene);
     // By hand for this part alone; then one rule for all again.
     apply(&mut h, Command::Control(ControlMode::Fixed));
     assert_eq!(rules(&h), [Some(ControlMode::CutOff), Some(ControlMode::Fixed)]);
@@ -232,14 +232,14 @@ fn a_curve_of_a_file_becomes_the_rule_and_a_wrong_one_is_told() {
     let path = folder.path().join("retro.csv");
     std::fs::write(&path, "profile_angle_deg,value_deg\n0,70\n50,30\n90,0\n").unwrap();
     apply(&mut h, Command::OpenPaths(vec![path.clone()]));
-    let state = &h.state().state;
+    let state = &h.state().shell.state;
     assert_eq!(state.control_mode(), ControlMode::Curve);
     assert_eq!(state.control_keys().curve, [[0.0, 70.0], [50.0, 30.0], [90.0, 0.0]]);
     // 70° − 0.8 ψ at about 41° and a little less: 37.7°.
     assert_eq!(state.shown_state, "40");
     std::fs::write(&path, "profile_angle_deg,value_deg\n50,70\n20,30\n").unwrap();
     apply(&mut h, Command::OpenPaths(vec![path]));
-    assert_eq!(h.state().state.control_keys().curve.len(), 3);
+    assert_eq!(h.state().shell.state.control_keys().curve.len(), 3);
 }
 
 #[test]
@@ -250,7 +250,11 @@ fn a_reset_scene_keeps_the_rule_of_what_stays_in_it() {
     apply(&mut h, Command::ResetScene);
     settle(&mut h);
     let app = h.state();
-    let control = app.state.document.scene.control.as_ref();
+    let control = app.shell.state.document.scene.control.as_ref();
     assert_eq!(control.map(|keys| keys.mode), Some(ControlMode::CutOff));
-    assert!(app.results.room.value.is_some() && !app.results.room.stale, "{:?}", app.results.room.error);
+    assert!(
+        app.shell.results.room.value.is_some() && !app.shell.results.room.stale,
+        "{:?}",
+        app.shell.results.room.error
+    );
 }

@@ -1,11 +1,11 @@
 //! Windows without a display, operated by commands and looked at between frames.
 
-use cfs::app::backend::{StudyEngine, memory_shelf};
+use cfs::app::catalogue::shelf::{Addition, Query, Shelf};
 use cfs::app::command::Command;
-use cfs::app::dialogs::NoDialogs;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
-use cfs::app::shelf::{Addition, Query, Shelf};
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::shell::dialogs::NoDialogs;
+use cfs::app::shell::error::AppError;
 use cfs::app::state::Settings;
 use cfs::app::{App, Services};
 use cfs::catalogue::{NewProduct, SourceFile};
@@ -90,7 +90,7 @@ pub fn services(open: impl Fn() -> Result<Arc<dyn Shelf>, AppError> + Send + Syn
 pub fn step_until(harness: &mut Harness<'_, App>, what: &str, holds: impl Fn(&App) -> bool) {
     let start = Instant::now();
     while !holds(harness.state()) {
-        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().state.dataset.error);
+        assert!(start.elapsed() < PATIENCE, "{what}: {:?}", harness.state().shell.state.dataset.error);
         std::thread::sleep(Duration::from_millis(2));
         harness.step();
     }
@@ -112,7 +112,7 @@ pub fn apply(harness: &mut Harness<'_, App>, command: Command) {
 
 /// Few sensors: what is tested is not how finely the room is computed.
 pub fn coarsen(harness: &mut Harness<'_, App>, sensors: [usize; 2]) {
-    let plane = harness.state_mut().state.document.scene.sensors.plane.as_mut().unwrap();
+    let plane = harness.state_mut().shell.state.document.scene.sensors.plane.as_mut().unwrap();
     [plane.nx, plane.ny] = sensors;
 }
 
@@ -153,7 +153,8 @@ pub fn window() -> Harness<'static, App> {
 pub const LONG: &str =
     "Retroreflecting light-guiding venetian blind 80 mm, perforated, white outside and specular inside";
 
-pub fn select(harness: &mut Harness<'_, App>, fits: impl Fn(&cfs::app::shelf::Entry) -> bool) {
-    let key = harness.state().state.found.entries.iter().find(|entry| fits(entry)).expect("a product").key.clone();
+pub fn select(harness: &mut Harness<'_, App>, fits: impl Fn(&cfs::app::catalogue::shelf::Entry) -> bool) {
+    let key =
+        harness.state().shell.state.found.entries.iter().find(|entry| fits(entry)).expect("a product").key.clone();
     apply(harness, Command::Select(key));
 }

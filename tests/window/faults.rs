@@ -4,9 +4,9 @@ use crate::driven::{Idle, apply, frames, settle};
 use crate::files_view::{killed, said};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
-use cfs::app::error::AppError;
-use cfs::app::language::LanguageChoice;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};
+use cfs::app::shell::error::AppError;
 use cfs::app::title::title;
 use cfs::compute::estimate::Progress;
 use cfs::study::accuracy::Accuracy;
@@ -81,12 +81,12 @@ fn a_fault_in_a_job_saves_what_is_open_leaves_a_report_and_is_told_with_a_button
     let (sessions, reports) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut harness = window_in(sessions.path(), reports.path());
     apply(&mut harness, Command::Hour(2));
-    harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = FAULT;
     // Until the fault is told; then what is open is on disk already.
-    crate::driven::step_until(&mut harness, "the fault", |app| app.results.room.error.is_some());
+    crate::driven::step_until(&mut harness, "the fault", |app| app.shell.results.room.error.is_some());
     assert_eq!(kept_floor(sessions.path()), FAULT);
     let [(path, text)] = &*texts(reports.path(), "txt") else { panic!("one report") };
-    let scene = toml::to_string(&harness.state().state.document.scene).unwrap();
+    let scene = toml::to_string(&harness.state().shell.state.document.scene).unwrap();
     for part in [
         env!("CARGO_PKG_VERSION"),
         std::env::consts::OS,
@@ -104,10 +104,10 @@ fn a_fault_in_a_job_saves_what_is_open_leaves_a_report_and_is_told_with_a_button
     assert!(told.len() == 1 && told[0].contains(&path.display().to_string()), "{told:?}");
     // The same again is no second report, and the window goes on.
     settle(&mut harness);
-    harness.state_mut().state.document.scene.room.reflectance.floor = 0.3;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = 0.3;
     settle(&mut harness);
-    assert!(harness.state().results.room.error.is_none());
-    harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
+    assert!(harness.state().shell.results.room.error.is_none());
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = FAULT;
     settle(&mut harness);
     assert_eq!(texts(reports.path(), "txt").len(), 1);
     harness.get_all_by_label("Copy report").last().expect("a button").click();
@@ -124,7 +124,7 @@ fn a_fault_is_told_in_german() {
     let (sessions, reports) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut harness = window_in(sessions.path(), reports.path());
     apply(&mut harness, Command::Language(LanguageChoice::German));
-    harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = FAULT;
     settle(&mut harness);
     let told = said(&harness).pop().unwrap();
     assert!(told.contains("interner Fehler") && told.contains("ein Bericht zum Weitersenden steht in"), "{told}");
@@ -137,7 +137,7 @@ fn a_report_that_cannot_be_written_is_told() {
     let taken = reports.path().join("taken");
     std::fs::write(&taken, "").unwrap();
     let mut harness = window_in(sessions.path(), &taken);
-    harness.state_mut().state.document.scene.room.reflectance.floor = FAULT;
+    harness.state_mut().shell.state.document.scene.room.reflectance.floor = FAULT;
     settle(&mut harness);
     let told = said(&harness).pop().unwrap();
     assert!(told.contains("at fault on purpose") && told.contains("the report could not be written"), "{told}");
@@ -158,8 +158,8 @@ fn a_fault_of_the_window_itself_leaves_what_was_open_and_a_report_and_the_next_s
     let mut harness = window_in(sessions.path(), reports.path());
     apply(&mut harness, Command::Hour(2));
     apply(&mut harness, Command::EditSystem("name = \"half typed".to_owned()));
-    let before = title(&harness.state().state);
-    let scene = toml::to_string(&harness.state().state.document.scene).unwrap();
+    let before = title(&harness.state().shell.state);
+    let scene = toml::to_string(&harness.state().shell.state.document.scene).unwrap();
     let fault = end(harness);
     let [(path, text)] = &*texts(reports.path(), "txt") else { panic!("one report") };
     assert_eq!(fault.report.as_ref(), Some(path), "who catches it tells where it is");
@@ -167,8 +167,8 @@ fn a_fault_of_the_window_itself_leaves_what_was_open_and_a_report_and_the_next_s
         assert!(text.contains(part), "{part} is not in {text}");
     }
     let mut next = window_in(sessions.path(), reports.path());
-    assert_eq!(title(&next.state().state), before);
-    assert_eq!(next.state().state.goniophotometer.text, "name = \"half typed");
+    assert_eq!(title(&next.state().shell.state), before);
+    assert_eq!(next.state().goniophotometer.text(), "name = \"half typed");
     let told = said(&next);
     assert!(told.len() == 1 && told[0].contains(&path.display().to_string()), "{told:?}");
     assert!(next.query_all_by_label("Copy report").count() > 0);
@@ -183,13 +183,13 @@ fn a_session_that_ends_the_program_again_and_again_is_set_aside() {
     let (sessions, reports) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     let mut harness = window_in(sessions.path(), reports.path());
     apply(&mut harness, Command::Hour(2));
-    let own = title(&harness.state().state);
+    let own = title(&harness.state().shell.state);
     end(harness);
     let harness = window_in(sessions.path(), reports.path());
-    assert_eq!(title(&harness.state().state), own);
+    assert_eq!(title(&harness.state().shell.state), own);
     end(harness);
     let third = window_in(sessions.path(), reports.path());
-    assert_ne!(title(&third.state().state), own);
+    assert_ne!(title(&third.state().shell.state), own);
     let told = said(&third);
     assert!(told.len() == 1 && told[0].contains("was moved to") && told[0].contains(".txt"), "{told:?}");
     let [(_, aside)] = &*texts(sessions.path(), "aside") else { panic!("it is there still") };

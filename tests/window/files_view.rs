@@ -33,7 +33,7 @@ pub fn window_in(folder: &Path) -> Harness<'static, App> {
 }
 
 pub fn import<'a>(harness: &'a Harness<'_, App>) -> &'a Import {
-    harness.state().state.import.as_ref().expect("an import sheet")
+    harness.state().imports.open().expect("an import sheet")
 }
 
 /// Products with the keys of their states.
@@ -43,11 +43,11 @@ pub fn proposed(harness: &Harness<'_, App>) -> Vec<(String, Vec<String>)> {
 }
 
 pub fn products(harness: &Harness<'_, App>) -> usize {
-    harness.state().state.found.total
+    harness.state().shell.state.found.total
 }
 
 pub fn said(harness: &Harness<'_, App>) -> Vec<String> {
-    harness.state().toasts.all().map(|message| message.text.clone()).collect()
+    harness.state().shell.toasts.all().map(|message| message.text.clone()).collect()
 }
 
 /// A diffuse sheet of this name in BSDF XML.
@@ -123,7 +123,7 @@ fn unlike_files_become_products_of_their_own_and_can_be_taken_otherwise_before_t
     harness.get_by_label("Add 3 products to catalogue").click();
     settle(&mut harness);
     assert_eq!(products(&harness), before + 3);
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     let venetian = shelf.product("venetian").unwrap();
     assert_eq!(venetian.states.iter().map(|state| state.value).collect::<Vec<_>>(), [Some(0.0), Some(45.0)]);
     assert_eq!(shelf.product("my-fabric").unwrap().states.len(), 1);
@@ -147,7 +147,7 @@ fn the_same_again_is_told_before_it_is_added() {
     apply(&mut harness, Command::OpenPaths(vec![path.clone()]));
     apply(&mut harness, Command::AddImport);
     assert_eq!(products(&harness), before + 1);
-    let other = harness.state().state.found.entries[0].key.clone();
+    let other = harness.state().shell.state.found.entries[0].key.clone();
     apply(&mut harness, Command::Select(other));
     apply(&mut harness, Command::OpenPaths(vec![path]));
     assert!(harness.query_by_label("Already in the catalogue as Screen").is_some());
@@ -155,7 +155,7 @@ fn the_same_again_is_told_before_it_is_added() {
     assert_eq!(products(&harness), before + 1, "not without being asked for");
     harness.get_by_label("Show").click();
     settle(&mut harness);
-    assert_eq!(harness.state().state.document.selection.product, "screen");
+    assert_eq!(harness.state().shell.state.document.selection.product, "screen");
     harness.get_by_label("Add anyway").click();
     settle(&mut harness);
     harness.get_by_label("Add to catalogue").click();
@@ -218,13 +218,13 @@ fn a_scene_among_datasets_is_opened_and_the_datasets_go_to_the_sheet() {
     apply(&mut harness, Command::Write(PathUse::SaveScene, scene.clone()));
     harness.key_press(Key::ArrowRight);
     settle(&mut harness);
-    let moved = harness.state().state.document.scene.clone();
+    let moved = harness.state().shell.state.document.scene.clone();
     let blind = write(folder.path(), "blind.xml", &sheet("Blind", 0.3));
     let second = write(folder.path(), "second.toml", "");
     apply(&mut harness, Command::OpenPaths(vec![blind, scene.clone(), second]));
-    assert_ne!(harness.state().state.document.scene, moved);
-    assert_eq!(harness.state().state.scene_path, Some(scene));
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
+    assert_ne!(harness.state().shell.state.document.scene, moved);
+    assert_eq!(harness.state().shell.state.scene_path, Some(scene));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Import));
     assert_eq!(import(&harness).products.len(), 1);
     assert_eq!(import(&harness).left_out, ["second.toml: a scene; one at a time is opened"]);
 }
@@ -238,11 +238,11 @@ fn products_are_renamed_and_deleted_and_undo_and_the_list_bring_them_back() {
     apply(&mut harness, Command::AddImport);
     let total = products(&harness);
     let names = |harness: &Harness<'_, App>| -> Vec<String> {
-        harness.state().state.found.entries.iter().map(|entry| entry.name.clone()).collect()
+        harness.state().shell.state.found.entries.iter().map(|entry| entry.name.clone()).collect()
     };
     harness.key_press(Key::F2);
     settle(&mut harness);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Product));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Product));
     let field = harness.get_by_role_and_label(Role::TextInput, "Name");
     field.focus();
     harness.run_steps(2);
@@ -263,7 +263,7 @@ fn products_are_renamed_and_deleted_and_undo_and_the_list_bring_them_back() {
     harness.get_by_label("Delete").click();
     settle(&mut harness);
     assert_eq!(products(&harness), total - 1);
-    assert_ne!(harness.state().state.document.selection.product, "screen", "another one is shown");
+    assert_ne!(harness.state().shell.state.document.selection.product, "screen", "another one is shown");
     apply(&mut harness, Command::Undo);
     assert_eq!(products(&harness), total);
     apply(&mut harness, Command::Redo);
@@ -281,7 +281,7 @@ fn a_file_that_exists_is_not_written_over_unasked() {
     let path = write(folder.path(), "there.toml", "mine");
     let mut harness = window();
     apply(&mut harness, Command::SaveScene);
-    let offered = harness.state().state.path.clone();
+    let offered = harness.state().shell.state.path.clone();
     assert!(offered.ends_with("_2026-03-21T1200.toml"), "{offered}");
     apply(&mut harness, Command::EditPath(path.display().to_string()));
     harness.get_by_label("Save").click();
@@ -295,19 +295,19 @@ fn a_file_that_exists_is_not_written_over_unasked() {
     apply(&mut harness, Command::EditPath(other.display().to_string()));
     harness.get_by_label("Save").click();
     settle(&mut harness);
-    assert!(other.exists() && harness.state().state.sheet.is_none());
+    assert!(other.exists() && harness.state().shell.state.sheet.is_none());
     // Asked again for the first, and meant.
     apply(&mut harness, Command::WriteNew(PathUse::SaveScene, path.clone()));
     harness.get_by_label("Replace").click();
     settle(&mut harness);
     assert!(std::fs::read_to_string(&path).unwrap().contains("[room]"));
     // The folder is remembered, and the scene's own file is saved to without a question.
-    assert_eq!(harness.state().state.settings.folder.as_deref(), Some(folder.path()));
+    assert_eq!(harness.state().shell.state.settings.folder.as_deref(), Some(folder.path()));
     apply(&mut harness, Command::WriteNew(PathUse::SaveScene, path));
-    assert!(harness.state().state.replace.is_none());
+    assert!(harness.state().shell.state.replace.is_none());
     apply(&mut harness, Command::ExportLid);
-    assert!(harness.state().state.path.starts_with(&folder.path().display().to_string()));
-    assert!(harness.state().state.path.ends_with("_2026-03-21T1200.ldt"), "{}", harness.state().state.path);
+    assert!(harness.state().shell.state.path.starts_with(&folder.path().display().to_string()));
+    assert!(harness.state().shell.state.path.ends_with("_2026-03-21T1200.ldt"), "{}", harness.state().shell.state.path);
 }
 
 #[test]
@@ -337,7 +337,7 @@ fn messages_leave_by_themselves_or_by_a_click_never_cover_the_status_line_and_st
     }
     harness.get_by_label("2 messages").click();
     harness.run_steps(3);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Messages));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Messages));
     assert!(harness.query_by_label(&text).is_some());
     harness.get_by_label("Clear all").click();
     harness.run_steps(3);
@@ -383,13 +383,12 @@ fn what_was_open_is_restored_after_a_kill_and_told_once() {
     let fields = cfs::app::import::ImportFields { name: "Half named".into(), ..Default::default() };
     apply(&mut harness, Command::EditImport(2, Box::new(fields)));
     wait_for(folder.path(), "Half named");
-    let title = cfs::app::title::title(&harness.state().state);
+    let title = cfs::app::title::title(&harness.state().shell.state);
     let left = killed(folder.path());
     let restored = window_in(left.path());
-    assert_eq!(cfs::app::title::title(&restored.state().state), title);
+    assert_eq!(cfs::app::title::title(&restored.state().shell.state), title);
     assert!(title.contains("Ideal diffuser") && title.contains("14:00"), "{title}");
-    let state = &restored.state().state;
-    assert_eq!(state.goniophotometer.text, "name = \"half typed");
+    assert_eq!(restored.state().goniophotometer.text(), "name = \"half typed");
     assert_eq!((import(&restored).grouping, import(&restored).products.len()), (Grouping::Each, 4));
     assert_eq!(import(&restored).products[2].fields.name, "Half named");
     assert_eq!(said(&restored).iter().filter(|text| text.starts_with("Session of ")).count(), 1);
@@ -398,7 +397,7 @@ fn what_was_open_is_restored_after_a_kill_and_told_once() {
     restored.state_mut().close();
     drop(restored);
     let next = window_in(left.path());
-    assert_eq!(cfs::app::title::title(&next.state().state), title);
+    assert_eq!(cfs::app::title::title(&next.state().shell.state), title);
     assert!(said(&next).is_empty(), "{:?}", said(&next));
 }
 
@@ -410,10 +409,10 @@ fn an_import_that_is_being_stored_is_not_lost_and_a_closing_window_waits_for_it(
     let before = products(&harness);
     apply(&mut harness, Command::OpenPaths(four(files.path())));
     harness.state_mut().apply(Command::AddImport);
-    assert!(harness.state().state.import.is_none() && harness.state().state.under_way.is_some());
-    let shelf = harness.state().state.shelf().unwrap();
+    assert!(harness.state().imports.open().is_none() && harness.state().imports.under_way().is_some());
+    let shelf = harness.state().shell.state.shelf().unwrap();
     harness.state_mut().close();
-    let total = shelf.search(&cfs::app::shelf::Query::default()).unwrap().total;
+    let total = shelf.search(&cfs::app::catalogue::shelf::Query::default()).unwrap().total;
     assert_eq!(total, before + 3);
-    assert!(harness.state().state.under_way.is_none());
+    assert!(harness.state().imports.under_way().is_none());
 }

@@ -2,10 +2,10 @@
 
 use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
-use cfs::app::catalogue_command::CatalogueCommand;
+use cfs::app::catalogue::CatalogueCommand;
+use cfs::app::catalogue::shelf::{Addition, Query};
 use cfs::app::command::Command;
-use cfs::app::shelf::{Addition, Query};
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
 use cfs::app::state::{PathUse, Sheet, State};
 use cfs::catalogue::{Catalogue, NewProduct};
 use cfs::compute::btdf::{Btdf, Dataset};
@@ -24,7 +24,7 @@ fn window() -> Harness<'static, App> {
 }
 
 fn state<'a>(harness: &'a Harness<'_, App>) -> &'a State {
-    &harness.state().state
+    &harness.state().shell.state
 }
 
 fn selected(harness: &Harness<'_, App>) -> String {
@@ -156,13 +156,13 @@ fn products_are_collected_and_starred_and_undo_goes_over_both() {
         list.into_iter().map(|one| (one.name, one.products)).collect::<Vec<_>>()
     };
     assert_eq!(inside(&h), [("Atrium".to_owned(), vec!["clear-double".to_owned()])]);
-    assert!(state(&h).collection.is_empty());
+    assert!(h.state().products.collection().is_empty());
     apply(&mut h, Command::Select("laser-cut-panel".into()));
     h.get_by_role_and_label(Role::CheckBox, "Atrium  1").click();
     settle(&mut h);
     assert_eq!(inside(&h)[0].1, ["clear-double", "laser-cut-panel"]);
     // The room's figures do not hang on it.
-    assert!(!h.state().results.room.stale);
+    assert!(!h.state().shell.results.room.stale);
     h.get_by_label("Show: Atrium").click();
     settle(&mut h);
     assert_eq!(state(&h).found.entries.len(), 2);

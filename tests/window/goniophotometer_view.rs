@@ -4,7 +4,7 @@ use crate::driven::{Idle, frames_in, step_until};
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::goniophotometer::{Emergence, Incidence, Setup};
-use cfs::app::jobs::Lane;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::catalogue::{Catalogue, Origin};
 use egui::accesskit::Role;
@@ -35,16 +35,16 @@ fn from_an_example_to_the_catalogue_and_out_again() {
     let mut harness = window(Theme::Dark);
     harness.key_press(Key::G);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Goniophotometer));
     assert!(section(&harness).contains("Select an example"));
-    let before = harness.state().state.found.total;
+    let before = harness.state().shell.state.found.total;
     harness.get_by_label("Panes").click();
     harness.run_steps(3);
     assert!(section(&harness).starts_with("2 outlines"), "{}", section(&harness));
     assert!(section(&harness).contains("sun at"), "the scene's noon sun shines on it");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Enter);
-    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
-    let run = harness.state().state.goniophotometer.run.clone().unwrap();
+    wait(&mut harness, |app| app.goniophotometer.run().is_some_and(|run| run.complete()));
+    let run = harness.state().goniophotometer.run().cloned().unwrap();
     // A pane of 0.89 lets 0.89² / (1 − ρ²) through twice, with ρ between Fresnel's 0.08 and what is not let through.
     let tau = run.finished[0].tau_normal;
     let between = |rho: f64| 0.89 * 0.89 / (1.0 - rho * rho);
@@ -52,15 +52,15 @@ fn from_an_example_to_the_catalogue_and_out_again() {
     assert!(harness.query_by_label(&format!("{tau:.4}")).is_some());
 
     harness.get_by_label("Add to catalogue").click();
-    wait(&mut harness, |app| !app.busy() && app.state.found.total == before + 1);
-    let state = &harness.state().state;
+    wait(&mut harness, |app| !app.busy() && app.shell.state.found.total == before + 1);
+    let state = &harness.state().shell.state;
     assert_eq!(state.sheet, None);
     let product = state.product.clone().unwrap();
     assert_eq!(product.key, state.document.selection.product);
     assert_eq!((product.name.as_str(), product.provenance.origin), ("Double glazing, clear", Origin::Computed));
     assert!(product.provenance.method.contains("Fresnel"));
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    wait(&mut harness, |app| !app.busy() && app.state.found.total == before);
+    wait(&mut harness, |app| !app.busy() && app.shell.state.found.total == before);
     // What was computed is still in the sheet.
     harness.state_mut().apply(Command::Sheet(Some(Sheet::Goniophotometer)));
     harness.run_steps(3);
@@ -78,7 +78,7 @@ fn the_drawing_follows_the_text_and_its_states() {
     harness.get_by_label("Next state").click();
     harness.run_steps(3);
     assert!(harness.query_by_label("-15°").is_some());
-    let wrong = harness.state().state.goniophotometer.text.replace("spacing = 0.072", "spacing = -1");
+    let wrong = harness.state().goniophotometer.text().replace("spacing = 0.072", "spacing = -1");
     harness.state_mut().apply(Command::EditSystem(wrong));
     harness.run_steps(3);
     assert!(harness.query_by_label_contains("venetian.spacing: -1; expected metres").is_some());
@@ -90,7 +90,7 @@ fn the_drawing_follows_the_text_and_its_states() {
     assert!(section(&harness).contains("seen from above"));
     harness.key_press(Key::Escape);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.sheet, None);
+    assert_eq!(harness.state().shell.state.sheet, None);
 }
 
 #[test]
@@ -101,14 +101,14 @@ fn keys_typed_into_the_text_stay_in_the_text() {
     let editor = harness.get_by_role(Role::MultilineTextInput);
     editor.focus();
     harness.run_steps(2);
-    let before = harness.state().state.document.clone();
+    let before = harness.state().shell.state.document.clone();
     harness.get_by_role(Role::MultilineTextInput).type_text("#g1");
     harness.run_steps(3);
-    assert!(harness.state().state.goniophotometer.text.contains("#g1"));
+    assert!(harness.state().goniophotometer.text().contains("#g1"));
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
-    assert_eq!(harness.state().state.document, before);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+    assert_eq!(harness.state().shell.state.document, before);
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Goniophotometer));
 }
 
 #[test]
@@ -118,14 +118,14 @@ fn a_stopped_run_goes_on_after_its_finished_states() {
                 upper = { reflectance = 0.5 }\nlower = { reflectance = 0.5 }\n";
     harness.state_mut().apply(Command::EditSystem(text.to_owned()));
     harness.state_mut().apply(Command::MeasureSystem);
-    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| !run.finished.is_empty()));
+    wait(&mut harness, |app| app.goniophotometer.run().is_some_and(|run| !run.finished.is_empty()));
     harness.state_mut().apply(Command::Cancel(Lane::Goniophotometer));
     wait(&mut harness, |app| !app.busy());
-    assert!(!harness.state().state.goniophotometer.run.as_ref().unwrap().complete());
-    let first = harness.state().state.goniophotometer.run.clone().unwrap().finished[0].dataset.clone();
+    assert!(!harness.state().goniophotometer.run().unwrap().complete());
+    let first = harness.state().goniophotometer.run().cloned().unwrap().finished[0].dataset.clone();
     harness.state_mut().apply(Command::MeasureSystem);
-    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
-    let run = harness.state().state.goniophotometer.run.clone().unwrap();
+    wait(&mut harness, |app| app.goniophotometer.run().is_some_and(|run| run.complete()));
+    let run = harness.state().goniophotometer.run().cloned().unwrap();
     assert!(Arc::ptr_eq(&run.finished[0].dataset, &first));
     let states: Vec<&str> = run.finished.iter().map(|one| one.dataset.state.as_str()).collect();
     assert_eq!((states.len(), states[0], states[10], states[25]), (26, "0", "30", "75"));
@@ -142,17 +142,17 @@ fn a_stopped_run_goes_on_after_its_finished_states() {
 fn files_open_the_sheet_and_packages_come_out() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("screen.system.toml");
-    std::fs::write(&file, cfs::app::examples::EXAMPLES[8].text).unwrap();
+    std::fs::write(&file, cfs::app::goniophotometer::EXAMPLES[8].text).unwrap();
     let mut harness = window(Theme::Dark);
     harness.state_mut().apply(Command::OpenPaths(vec![file]));
-    wait(&mut harness, |app| app.state.sheet == Some(Sheet::Goniophotometer));
-    assert_eq!(harness.state().state.goniophotometer.base, folder.path());
+    wait(&mut harness, |app| app.shell.state.sheet == Some(Sheet::Goniophotometer));
+    assert_eq!(harness.state().goniophotometer.base(), folder.path());
     assert!(section(&harness).contains("schematic"));
     // Its label holds the keys too, which are other ones on other systems.
     harness
         .get_by(|node| node.role() == Role::Button && node.label().is_some_and(|l| l.starts_with("Compute")))
         .click();
-    wait(&mut harness, |app| app.state.goniophotometer.run.as_ref().is_some_and(|run| run.complete()));
+    wait(&mut harness, |app| app.goniophotometer.run().is_some_and(|run| run.complete()));
     let package = folder.path().join("screen.cfsp");
     harness.state_mut().apply(Command::Write(PathUse::ExportMeasured, package.clone()));
     wait(&mut harness, |app| !app.busy());
@@ -165,10 +165,10 @@ fn files_open_the_sheet_and_packages_come_out() {
     harness.state_mut().apply(Command::Write(PathUse::ExportMeasured, xml.clone()));
     wait(&mut harness, |app| !app.busy());
     let read = cfs::formats::read_dataset("screen.xml", &std::fs::read(&xml).unwrap()).unwrap();
-    let (ours, theirs) = (harness.state().state.goniophotometer.run.clone().unwrap(), &read[0]);
+    let (ours, theirs) = (harness.state().goniophotometer.run().cloned().unwrap(), &read[0]);
     let tau = theirs.transmission().unwrap().tau_normal();
     assert!((tau - ours.finished[0].tau_normal).abs() < 1e-3, "{tau}");
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Goniophotometer));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Goniophotometer));
 }
 
 /// Written where asked for, to be looked at; nothing to compare.
@@ -176,7 +176,7 @@ fn files_open_the_sheet_and_packages_come_out() {
 fn both_themes_draw_every_example() {
     for theme in [Theme::Light, Theme::Dark] {
         let mut harness = window(theme);
-        for number in 0..cfs::app::examples::EXAMPLES.len() {
+        for number in 0..cfs::app::goniophotometer::EXAMPLES.len() {
             harness.state_mut().apply(Command::SystemExample(number));
             harness.run_steps(3);
             let rect = harness.get_by_role_and_label(Role::Image, "Section").rect();

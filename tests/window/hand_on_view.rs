@@ -2,11 +2,11 @@
 
 use crate::driven::{apply, coarsen, frames, select, settle};
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::export_choices::{Choices, Preview, ReportKind, What};
-use cfs::app::language::LanguageChoice;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::export::choices::{Choices, Preview, ReportKind, What};
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::tiles::TILES;
 use cfs::drawing::ticks::si;
@@ -28,19 +28,19 @@ fn window() -> Harness<'static, App> {
     select(&mut harness, |entry| entry.key == "venetian-80-72");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&mut harness);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Export));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Export));
     harness
 }
 
 fn choose(harness: &mut Harness<'_, App>, change: impl FnOnce(&mut Choices)) {
-    let mut choices = harness.state().state.settings.export.clone();
+    let mut choices = harness.state().shell.state.settings.export.clone();
     change(&mut choices);
     apply(harness, Command::ExportChoices(Box::new(choices)));
 }
 
 /// Writes under the name that is offered, into a folder; the name.
 fn write(harness: &mut Harness<'_, App>, folder: &Path) -> String {
-    let name = Path::new(&harness.state().state.path).file_name().unwrap().to_str().unwrap().to_owned();
+    let name = Path::new(&harness.state().shell.state.path).file_name().unwrap().to_str().unwrap().to_owned();
     apply(harness, Command::EditPath(folder.join(&name).display().to_string()));
     harness.get_by_label("Write").click();
     settle(harness);
@@ -48,7 +48,7 @@ fn write(harness: &mut Harness<'_, App>, folder: &Path) -> String {
 }
 
 fn preview<'a>(harness: &'a Harness<'_, App>) -> &'a Preview {
-    match harness.state().state.export.shown.as_ref().expect("a preview") {
+    match harness.state().export.preview().expect("a preview") {
         Ok(preview) => preview,
         Err(error) => panic!("{error}"),
     }
@@ -60,7 +60,7 @@ fn every_kind_is_previewed_and_written_under_the_name_that_is_offered() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
-    let state = harness.state().state.shown_state.clone();
+    let state = harness.state().shell.state.shown_state.clone();
 
     choose(&mut harness, |choices| (choices.what, choices.vector) = (What::Picture, true));
     assert!(matches!(preview(&harness), Preview::Picture([w, h], pixels, said)
@@ -69,7 +69,7 @@ fn every_kind_is_previewed_and_written_under_the_name_that_is_offered() {
     assert_eq!(name, format!("venetian-80-72_{state}_2026-03-21T1200_room.svg"));
     let svg = String::from_utf8(read(&name)).unwrap();
     // The picture has the window's own figures.
-    let room = harness.state().results.room.value.clone().unwrap();
+    let room = harness.state().shell.results.room.value.clone().unwrap();
     let mean = room.totals().map(|total| total.value).sum::<f64>() / room.totals().count() as f64;
     assert!(svg.contains(&format!("mean {} · min", si(mean, "lx"))), "{mean}");
 
@@ -86,7 +86,7 @@ fn every_kind_is_previewed_and_written_under_the_name_that_is_offered() {
 
     choose(&mut harness, |choices| choices.what = What::Luminaire);
     assert!(matches!(preview(&harness), Preview::Text(text, size) if text.lines().count() == 40 && *size > 1000));
-    let flux = harness.state().results.lid.value.as_ref().unwrap().flux.value;
+    let flux = harness.state().shell.results.lid.value.as_ref().unwrap().flux.value;
     let written = eulumdat::read(&read(&write(&mut harness, folder))).unwrap();
     assert!((written.flux() / flux - 1.0).abs() < 2e-3);
 
@@ -100,17 +100,17 @@ fn every_kind_is_previewed_and_written_under_the_name_that_is_offered() {
     choose(&mut harness, |choices| choices.what = What::Dataset);
     let name = write(&mut harness, folder);
     let data = read_dataset(&name, &read(&name)).unwrap();
-    let shown = harness.state().state.dataset.value.clone().unwrap();
+    let shown = harness.state().shell.state.dataset.value.clone().unwrap();
     let tau = |one: &cfs::compute::btdf::Dataset| one.transmission().unwrap().tau_hemispherical();
     assert!((tau(&data[0]) - tau(&shown)).abs() < 2e-2, "{} {}", tau(&data[0]), tau(&shown));
 
     choose(&mut harness, |choices| choices.what = What::Scene);
     let name = write(&mut harness, folder);
     let scene = SceneFile::parse(std::str::from_utf8(&read(&name)).unwrap()).unwrap();
-    assert_eq!(scene, harness.state().state.document.scene);
+    assert_eq!(scene, harness.state().shell.state.document.scene);
     // Nothing half-written stays, and no other file came.
     assert_eq!(std::fs::read_dir(folder).unwrap().count(), 2 + 2 + 1 + 6 + 1 + 1);
-    assert_eq!(harness.state().state.settings.folder.as_deref(), Some(folder));
+    assert_eq!(harness.state().shell.state.settings.folder.as_deref(), Some(folder));
 }
 
 #[test]
@@ -161,7 +161,7 @@ fn a_series_has_an_index_that_names_every_file() {
     assert!(!folder.join(&name).exists());
     harness.get_by_label("Replace").click();
     settle(&mut harness);
-    assert!(folder.join(&name).exists() && harness.state().state.sheet == Some(Sheet::Export));
+    assert!(folder.join(&name).exists() && harness.state().shell.state.sheet == Some(Sheet::Export));
     // Nothing is left where not all of it can be written.
     let nowhere = folder.join("not-there/x_index.csv");
     apply(&mut harness, Command::Write(PathUse::Export, nowhere));
@@ -171,10 +171,10 @@ fn a_series_has_an_index_that_names_every_file() {
         choices.series.months = [true; 12];
         (choices.series.hours, choices.series.step, choices.series.all_states) = ([0, 23], 1, true);
     });
-    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().export.preview().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("expected at most 600"), "{error}");
     choose(&mut harness, |choices| choices.series.months = [false; 12]);
-    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().export.preview().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("no file would be written"), "{error}");
 }
 
@@ -198,7 +198,7 @@ fn a_window_goes_out_in_tiles_that_are_one_aperture_again() {
     let files = |folder: &Path| std::fs::read_dir(folder).unwrap().count();
     assert_eq!((files(folder.path()), files(&own)), (1, back.rows.len() + 1));
     assert!(back.rows.len() > 1 && own.join(&names[1]).exists());
-    let size = harness.state().state.document.scene.aperture[0].size;
+    let size = harness.state().shell.state.document.scene.aperture[0].size;
     assert!((back.aperture.size[0] - size[0]).abs() < 1e-3 && (back.aperture.size[1] - size[1]).abs() < 1e-3);
     // The straight beam stands in the index, not in the files.
     assert!(back.rows.iter().all(|row| row.beam == 0.0 && row.separate_beam.is_some_and(|apart| apart.flux > 1.0)));
@@ -217,7 +217,7 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
     assert_eq!(std::fs::read(&own).unwrap(), b"mine");
     // Another form: the own name stays, with its ending.
     choose(&mut harness, |choices| choices.vector = true);
-    assert!(harness.state().state.path.ends_with("Büro Süd.svg"), "{}", harness.state().state.path);
+    assert!(harness.state().shell.state.path.ends_with("Büro Süd.svg"), "{}", harness.state().shell.state.path);
     harness.get_by_label("Write").click();
     settle(&mut harness);
     assert!(std::fs::read_to_string(folder.path().join("Büro Süd.svg")).unwrap().starts_with("<svg"));
@@ -225,13 +225,13 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
     let wrong = folder.path().join("a.pdf");
     apply(&mut harness, Command::Write(PathUse::Export, wrong.clone()));
     assert!(!wrong.exists());
-    assert!(harness.state().toasts.all().any(|message| message.text.contains("end in .svg")));
+    assert!(harness.state().shell.toasts.all().any(|message| message.text.contains("end in .svg")));
     // A tender text with a wrong field is told where the preview stands.
     choose(&mut harness, |choices| {
         (choices.what, choices.report) = (What::Report, ReportKind::Sheet);
         choices.tender = "{colour}".to_owned();
     });
-    let error = harness.state().state.export.shown.as_ref().unwrap().as_ref().err().unwrap().clone();
+    let error = harness.state().export.preview().unwrap().as_ref().err().unwrap().clone();
     assert!(error.contains("line 1") && error.contains("{colour} is not a field"), "{error}");
 }
 
@@ -239,18 +239,18 @@ fn what_exists_is_asked_about_and_an_own_name_is_kept() {
 fn the_former_exports_lead_into_the_sheet() {
     let mut harness = window();
     apply(&mut harness, Command::Sheet(None));
-    assert!(harness.state().state.export.shown.is_none(), "a closed sheet keeps no preview");
+    assert!(harness.state().export.preview().is_none(), "a closed sheet keeps no preview");
     apply(&mut harness, Command::ExportLid);
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     assert!(state.settings.export.what == What::Luminaire && state.path.ends_with(".ldt"));
     let lid = TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == "LID").unwrap();
     apply(&mut harness, Command::ExportTile(lid));
-    let choices = &harness.state().state.settings.export;
+    let choices = &harness.state().shell.state.settings.export;
     assert_eq!((choices.what, choices.tile), (What::Picture, TileKind::Lid));
     // What is chosen goes with the scene: another hour, another picture.
-    let before = harness.state().state.export.revision;
+    let before = harness.state().export.revision();
     apply(&mut harness, Command::Hour(1));
-    assert!(harness.state().state.export.revision > before);
+    assert!(harness.state().export.revision() > before);
 }
 
 /// Pages that the preview of a report speaks of.
@@ -270,9 +270,9 @@ fn a_study_brings_the_tray_along_unless_it_is_left_out() {
     let compared = pages(&harness);
     assert!(compared > alone, "{compared} {alone}");
     // Another tile is another preview.
-    let before = harness.state().state.export.revision;
+    let before = harness.state().export.revision();
     apply(&mut harness, Command::Compare(Act::Tile("LID")));
-    assert!(harness.state().state.export.revision > before);
+    assert!(harness.state().export.revision() > before);
     choose(&mut harness, |choices| choices.comparison = false);
     assert_eq!(pages(&harness), alone);
 }
@@ -290,7 +290,7 @@ fn what_is_handed_on_speaks_the_language_of_the_window() {
     harness.get_by_label("Schreiben").click();
     settle(&mut harness);
     let svg = std::fs::read_to_string(&path).unwrap();
-    let room = harness.state().results.room.value.clone().unwrap();
+    let room = harness.state().shell.results.room.value.clone().unwrap();
     let mean = room.totals().map(|total| total.value).sum::<f64>() / room.totals().count() as f64;
     let german = cfs::texts::speak(cfs::texts::Language::German);
     assert!(svg.contains(&format!("Mittel {} · Min.", si(mean, "lx"))), "{mean}");

@@ -5,8 +5,8 @@ use crate::driven::{apply, settle};
 use crate::files_view::{import, killed, products, proposed, said, sheet, wait_for, window, window_in};
 use cfs::app::App;
 use cfs::app::command::Command;
+use cfs::app::import::{Choose, Step, Word};
 use cfs::app::import::{Import, ImportFields, StateWords};
-use cfs::app::import_steps::{Choose, Step, Word};
 use cfs::app::state::Sheet;
 use cfs::catalogue::Ambiguity;
 use cfs::formats::luminaire::{Description, Luminaire, Opening, Photometry};
@@ -112,7 +112,7 @@ fn families_are_found_among_other_files_and_what_is_not_certain_is_asked() {
     harness.get_by_label("Add 6 products to catalogue").click();
     settle(&mut harness);
     assert_eq!(products(&harness), before + 6);
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Import));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Import));
     assert!(import(&harness).products.iter().any(|one| one.ambiguity.is_some()));
     let cloth = import(&harness).products.iter().find(|one| one.ambiguity.is_some()).unwrap().fields.name.clone();
     harness.get_by_label(&format!("Separate: {cloth}")).click();
@@ -243,7 +243,7 @@ fn rows_are_put_together_by_mouse_and_keyboard_and_states_get_angles_before_anyt
     }
     assert_eq!(names(&harness), ["45", "-10", "22.5"]);
     apply(&mut harness, Command::AddImport);
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     let panel = shelf.product("panel").unwrap();
     let states: Vec<_> = panel.states.iter().map(|one| (one.key.as_str(), one.value, one.label.as_str())).collect();
     assert_eq!(
@@ -309,7 +309,7 @@ fn words_are_typed_once_for_all_that_are_chosen() {
     harness.run_steps(2);
     apply(&mut harness, Command::Import(Step::Word(Word::Author, "Prüfstelle".to_owned())));
     apply(&mut harness, Command::AddImport);
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     for key in ["panel", "panel-2", "panel-3", "other"] {
         let product = shelf.product(key).unwrap();
         assert_eq!((product.kind.as_str(), product.provenance.author.as_str()), ("prism", "Prüfstelle"));
@@ -407,28 +407,28 @@ fn an_import_that_is_left_is_a_draft_after_a_restart_too_and_a_discarded_one_com
     let arranged = proposed(&harness);
     harness.get_by_label("Keep as draft").click();
     settle(&mut harness);
-    assert!(harness.state().state.import.is_none() && harness.state().state.drafts.len() == 1);
+    assert!(harness.state().imports.open().is_none() && harness.state().imports.drafts().len() == 1);
     wait_for(folder.path(), "\"import\": null");
     let left = killed(folder.path());
     let mut next = window_in(left.path());
     apply(&mut next, Command::Sheet(Some(Sheet::Import)));
-    let name = next.state().state.drafts[0].name.clone();
+    let name = next.state().imports.drafts()[0].name.clone();
     next.get_by_label(&format!("Continue: {name}")).click();
     settle(&mut next);
     assert_eq!(proposed(&next), arranged);
-    assert!(next.state().state.drafts.is_empty());
+    assert!(next.state().imports.drafts().is_empty());
     // Discarded, back, and discarded again.
     next.get_by_label("Discard").click();
     settle(&mut next);
-    assert!(next.state().state.import.is_none());
+    assert!(next.state().imports.open().is_none());
     apply(&mut next, Command::Undo);
     assert_eq!(proposed(&next), arranged);
     apply(&mut next, Command::Redo);
-    assert!(next.state().state.import.is_none() && next.state().state.drafts.is_empty());
+    assert!(next.state().imports.open().is_none() && next.state().imports.drafts().is_empty());
     // What is opened over something else leaves it as a draft.
     open(&mut next, files.path());
     open(&mut next, &files.path().join("other.xml"));
-    assert_eq!(next.state().state.drafts.len(), 1);
+    assert_eq!(next.state().imports.drafts().len(), 1);
 }
 
 #[test]

@@ -3,8 +3,8 @@
 use crate::driven::{Idle, apply, frames, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
+use cfs::app::display::text_size::TextSize;
 use cfs::app::state::{PathUse, Sheet};
-use cfs::app::text_size::TextSize;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
 use egui_kittest::Harness;
@@ -41,11 +41,11 @@ fn a_path_can_be_typed_in_the_first_frames_of_a_window() {
         open_path(&mut harness);
         harness.step();
         type_at_once(&mut harness);
-        assert_eq!(harness.state().state.path, "/abcd", "after {frames_before} frames");
+        assert_eq!(harness.state().shell.state.path, "/abcd", "after {frames_before} frames");
         settle(&mut harness);
         harness.event(Event::Text("/e".to_owned()));
         harness.run_steps(2);
-        assert_eq!(harness.state().state.path, "/abcd/e", "and when the jobs have ended");
+        assert_eq!(harness.state().shell.state.path, "/abcd/e", "and when the jobs have ended");
     }
 }
 
@@ -58,16 +58,19 @@ fn a_path_can_be_typed_whatever_else_had_the_keyboard() {
     open_path(&mut harness);
     harness.step();
     type_at_once(&mut harness);
-    assert_eq!(harness.state().state.path, "/abcd");
+    assert_eq!(harness.state().shell.state.path, "/abcd");
     apply(&mut harness, Command::Sheet(None));
-    harness.state_mut().state.path.clear();
+    harness.state_mut().shell.state.path.clear();
     harness.state_mut().apply(Command::Search);
     harness.step();
     open_path(&mut harness);
     harness.step();
     harness.step();
     type_at_once(&mut harness);
-    assert_eq!((harness.state().state.path.as_str(), harness.state().state.query.text.as_str()), ("/abcd", ""));
+    assert_eq!(
+        (harness.state().shell.state.path.as_str(), harness.state().shell.state.query.text.as_str()),
+        ("/abcd", "")
+    );
 }
 
 #[test]
@@ -76,14 +79,14 @@ fn escape_and_results_of_the_frame_that_opens_a_sheet_are_not_meant_for_it() {
     harness.key_press(Key::Escape);
     open_path(&mut harness);
     harness.step();
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Path(PathUse::Open)));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Path(PathUse::Open)));
     type_at_once(&mut harness);
-    assert_eq!(harness.state().state.path, "/abcd");
+    assert_eq!(harness.state().shell.state.path, "/abcd");
     harness.key_press(Key::Escape);
     harness.run_steps(2);
-    assert_eq!(harness.state().state.sheet, None, "the next one is");
+    assert_eq!(harness.state().shell.state.sheet, None, "the next one is");
     // Another scene: its results come while the sheet opens.
-    harness.state_mut().state.path.clear();
+    harness.state_mut().shell.state.path.clear();
     harness.state_mut().apply(Command::Hour(1));
     harness.step();
     open_path(&mut harness);
@@ -93,7 +96,7 @@ fn escape_and_results_of_the_frame_that_opens_a_sheet_are_not_meant_for_it() {
         harness.event(Event::Text(text.to_owned()));
     }
     harness.step();
-    assert_eq!(harness.state().state.path, "abc");
+    assert_eq!(harness.state().shell.state.path, "abc");
 }
 
 #[test]
@@ -102,25 +105,28 @@ fn what_is_handed_on_can_be_named_at_once_and_the_palette_goes_first() {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     harness.step();
     harness.run_steps(2);
-    let before = harness.state().state.path.clone();
+    let before = harness.state().shell.state.path.clone();
     harness.event(Event::Text("x".to_owned()));
     harness.run_steps(2);
-    let after = harness.state().state.path.clone();
+    let after = harness.state().shell.state.path.clone();
     assert_eq!(after.len(), before.len() + 1, "{before} {after}");
     apply(&mut harness, Command::Sheet(None));
     // Both at once: the palette lies over the sheet.
-    harness.state_mut().state.path.clear();
+    harness.state_mut().shell.state.path.clear();
     open_path(&mut harness);
     harness.state_mut().apply(Command::Palette);
     harness.run_steps(2);
     type_at_once(&mut harness);
-    assert_eq!((harness.state().state.palette.as_deref(), harness.state().state.path.as_str()), (Some("/abcd"), ""));
+    assert_eq!(
+        (harness.state().shell.state.palette.as_deref(), harness.state().shell.state.path.as_str()),
+        (Some("/abcd"), "")
+    );
     harness.key_press(Key::Escape);
     harness.run_steps(3);
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     assert_eq!((state.palette.clone(), state.sheet), (None, Some(Sheet::Path(PathUse::Open))));
     type_at_once(&mut harness);
-    assert_eq!(harness.state().state.path, "/abcd", "then it is the sheet's turn");
+    assert_eq!(harness.state().shell.state.path, "/abcd", "then it is the sheet's turn");
 }
 
 #[test]
@@ -132,23 +138,23 @@ fn the_palette_walks_its_rows_and_finds_products() {
     settle(&mut harness);
     assert!(harness.query_by_label("Product: Ideal diffuser").is_some());
     // Rows of commands that have the word stand there too: walk down to the product.
-    let rows = cfs::app::palette::rows(&harness.state().state, "diffus");
+    let rows = harness.state().palette.rows(&harness.state().shell.state, "diffus");
     let row = rows.iter().position(|row| row.text == "Product: Ideal diffuser").unwrap();
     for _ in 0..row {
         harness.key_press(Key::ArrowDown);
         harness.run_steps(2);
     }
-    assert_eq!(harness.state().state.palette_row, row);
+    assert_eq!(harness.state().palette.row(), row);
     harness.key_press(Key::Enter);
     settle(&mut harness);
-    assert!(cfs::app::title::title(&harness.state().state).contains("Ideal diffuser"));
-    assert_eq!(harness.state().state.palette, None);
+    assert!(cfs::app::title::title(&harness.state().shell.state).contains("Ideal diffuser"));
+    assert_eq!(harness.state().shell.state.palette, None);
 }
 
 #[test]
 fn letters_of_the_frame_that_opens_a_field_are_no_commands() {
     let mut harness = window();
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     // A slow frame takes in the keys and what is typed after them.
     harness.input_mut().events.extend([Key::K, Key::C, Key::A].map(|key| Event::Key {
         key,
@@ -158,7 +164,7 @@ fn letters_of_the_frame_that_opens_a_field_are_no_commands() {
         modifiers: if key == Key::K { Modifiers::COMMAND } else { Modifiers::NONE },
     }));
     harness.run_steps(3);
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     assert_eq!((state.palette.as_deref(), state.sheet), (Some(""), None));
     assert_eq!(state.document.scene, scene);
 }
@@ -166,7 +172,7 @@ fn letters_of_the_frame_that_opens_a_field_are_no_commands() {
 #[test]
 fn text_grows_and_shrinks_by_keys_within_bounds() {
     let mut harness = window();
-    let size = |harness: &Harness<'_, App>| harness.state().state.settings.text_size;
+    let size = |harness: &Harness<'_, App>| harness.state().shell.state.settings.text_size;
     for (key, wanted) in
         [(Key::Plus, 1.1), (Key::Minus, 1.0), (Key::Minus, 0.9), (Key::Num0, 1.0), (Key::Equals, 1.1), (Key::Num0, 1.0)]
     {
@@ -180,5 +186,5 @@ fn text_grows_and_shrinks_by_keys_within_bounds() {
     settle(&mut least);
     apply(&mut least, Command::TextSize(TextSize::Larger));
     assert_eq!((size(&least), least.ctx.zoom_factor()), (1.0, 1.0));
-    assert!(least.state().toasts.all().any(|message| message.text.contains("no room for larger text")));
+    assert!(least.state().shell.toasts.all().any(|message| message.text.contains("no room for larger text")));
 }

@@ -4,12 +4,12 @@
 use crate::driven::{Idle, apply, frames, settle};
 use crate::legible::inspect::words;
 use cfs::app::App;
-use cfs::app::backend::memory_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::export_choices::{Choices, What};
-use cfs::app::language::LanguageChoice;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::export::choices::{Choices, What};
 use cfs::app::offer::MENUS;
+use cfs::app::results::backend::memory_shelf;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::tiles::TILES;
 use cfs::app::tour::TourAct;
@@ -97,7 +97,8 @@ fn window(language: LanguageChoice) -> Harness<'static, App> {
     let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
     settle(&mut harness);
     apply(&mut harness, Command::Language(language));
-    let moving = harness.state().state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().key.clone();
+    let moving =
+        harness.state().shell.state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().key.clone();
     apply(&mut harness, Command::Select(moving));
     harness
 }
@@ -161,7 +162,7 @@ fn walk(harness: &mut Harness<'static, App>, look: &mut dyn FnMut(&Harness<'stat
     let bar: Vec<egui::Rect> = MENUS
         .iter()
         .map(|menu| {
-            let word = if harness.state().state.settings.language == LanguageChoice::German {
+            let word = if harness.state().shell.state.settings.language == LanguageChoice::German {
                 german(menu.english())
             } else {
                 menu.english()

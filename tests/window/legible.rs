@@ -6,17 +6,17 @@ pub mod inspect;
 
 use crate::driven::{LONG, apply, harness, select, services, settle, window};
 use cfs::app::App;
-use cfs::app::arrange::{Arrange, Preset};
-use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
 use cfs::app::compare::{Act, Look};
-use cfs::app::error::AppError;
-use cfs::app::export_choices::{Choices, What};
-use cfs::app::language::LanguageChoice;
-use cfs::app::room_look::RoomView;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::display::theme::ThemeChoice;
+use cfs::app::export::choices::{Choices, What};
+use cfs::app::results::backend::ideals_shelf;
+use cfs::app::scene::room_look::RoomView;
+use cfs::app::shell::error::AppError;
 use cfs::app::state::{PathUse, Sheet};
-use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
+use cfs::app::tiles::arrange::{Arrange, Preset};
 use cfs::app::tour::TourAct;
 use cfs::formats::encoding::utf8;
 use egui_kittest::Harness;
@@ -190,7 +190,7 @@ fn a_night_a_sun_behind_the_facade_and_other_products_can_be_read() {
     problems.bench(&mut harness, "night");
     problems.each_tile(&mut harness, "night");
     apply(&mut harness, Command::Hour(-11));
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.site.azimuth = 0.0;
     apply(&mut harness, Command::Scene(Box::new(scene.clone())));
     problems.bench(&mut harness, "sun behind the façade");
@@ -232,10 +232,10 @@ fn a_comparison_can_be_read_in_all_its_looks() {
 fn errors_can_be_read() {
     let mut problems = Problems::default();
     let mut harness = window();
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.aperture[0].size = [40.0, 1.5];
     apply(&mut harness, Command::Scene(Box::new(scene)));
-    let told = harness.state().results.room.error.clone().expect("a window wider than its wall");
+    let told = harness.state().shell.results.room.error.clone().expect("a window wider than its wall");
     assert!(!told.is_empty());
     problems.bench(&mut harness, "a window wider than its wall");
     let mut failed = crate::driven::harness(services(|| {

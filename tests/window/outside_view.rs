@@ -5,11 +5,11 @@ use crate::driven::{Idle, apply, coarsen, frames, select, settle, step_until, wi
 use crate::legible::can_be_read;
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::language::LanguageChoice;
-use cfs::app::outside::{Act, Kind};
-use cfs::app::room_look::RoomView;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::display::theme::ThemeChoice;
+use cfs::app::scene::outside::{Act, Kind};
+use cfs::app::scene::room_look::RoomView;
 use cfs::app::state::Sheet;
-use cfs::app::theme::ThemeChoice;
 use cfs::app::tiles::TILES;
 use cfs::study::scene_file::{BoxKeys, DstKey, IlluminanceKey, SceneFile, SunKeys};
 use egui::accesskit::Role;
@@ -20,7 +20,7 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 fn scene<'a>(harness: &'a Harness<'_, App>) -> &'a SceneFile {
-    &harness.state().state.document.scene
+    &harness.state().shell.state.document.scene
 }
 
 fn solid(harness: &Harness<'_, App>, number: usize) -> BoxKeys {
@@ -72,11 +72,11 @@ fn behind_obstructions_a_preview_of_the_room_comes_first() {
     let mut harness = frames(App::for_test(Arc::new(Idle)), [1280.0, 720.0]);
     settle(&mut harness);
     apply(&mut harness, Command::Maximise(Some(tile("Room"))));
-    let coarse = |app: &App| app.results.room.value.as_ref().is_some_and(|room| room.coarse);
+    let coarse = |app: &App| app.shell.results.room.value.as_ref().is_some_and(|room| room.coarse);
     harness.state_mut().apply(Command::Outside(Act::Add(Kind::Overhang)));
     step_until(&mut harness, "a preview", coarse);
     settle(&mut harness);
-    assert!(!coarse(harness.state()) && !harness.state().results.room.stale);
+    assert!(!coarse(harness.state()) && !harness.state().shell.results.room.stale);
     // Without them the room is there at once.
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     let previewed = Cell::new(false);
@@ -262,7 +262,7 @@ fn boxes_are_added_typed_doubled_and_taken_away_in_the_panel() {
     undo(&mut harness);
     assert_eq!(scene(&harness).outside.len(), 2);
     // What reaches into the room is told where it is typed.
-    harness.state_mut().state.document.scene.outside[0].solid =
+    harness.state_mut().shell.state.document.scene.outside[0].solid =
         BoxKeys { from: [1.0, -1.0, 0.0], to: [2.0, 1.0, 1.0], turn: 0.0 };
     harness.run_steps(3);
     assert!(says(&harness, "extends into the room"));
@@ -294,7 +294,7 @@ fn frame_dirt_skyline_and_summer_time_are_typed() {
     let skyline = scene(&harness).sky.skyline.clone().unwrap();
     assert_eq!(skyline.altitudes[..3], [[0.0, 12.0], [90.0, 12.0], [170.0, 25.0]]);
     assert_eq!(skyline.altitudes.len(), 5);
-    assert!(harness.state().state.scene_error.is_none());
+    assert!(harness.state().shell.state.scene_error.is_none());
     harness.get_by_label("Uniform skyline").click();
     settle(&mut harness);
     assert_eq!(scene(&harness).sky.obstruction.map(|flat| flat.altitude), Some(25.0));
@@ -333,12 +333,12 @@ fn a_control_sees_what_boxes_hide_and_says_why_there_is_no_year() {
     let mut harness = window();
     select(&mut harness, |entry| entry.states.len() > 3 && entry.moves());
     let sunny = |harness: &Harness<'_, App>| {
-        let year = harness.state().results.year.value.clone().unwrap();
+        let year = harness.state().shell.results.year.value.clone().unwrap();
         year.hours.iter().filter(|hour| hour.is_some()).count()
     };
     let free = sunny(&harness);
     apply(&mut harness, Command::Outside(Act::Add(Kind::Overhang)));
-    assert!(!harness.state().results.year.stale);
+    assert!(!harness.state().shell.results.year.stale);
     let open = sunny(&harness);
     assert!(open > 0 && open < free, "{free} {open}");
     assert!(harness.query_by_label("Note on the year").is_none());
@@ -362,11 +362,11 @@ fn a_control_sees_what_boxes_hide_and_says_why_there_is_no_year() {
 fn the_accuracy_sheet_says_what_was_split_and_why() {
     let mut harness = window();
     coarsen(&mut harness, [2, 3]);
-    let scene = &mut harness.state_mut().state.document.scene;
+    let scene = &mut harness.state_mut().shell.state.document.scene;
     scene.aperture[0].system = toml::from_str("ideal = \"diffuse\"\ntransmittance = 0.6").unwrap();
     apply(&mut harness, Command::Outside(Act::Add(Kind::Overhang)));
-    let room = harness.state().results.room.value.clone().unwrap();
-    assert_eq!((harness.state().results.room.error.clone(), room.outside.len()), (None, 1));
+    let room = harness.state().shell.results.room.value.clone().unwrap();
+    assert_eq!((harness.state().shell.results.room.error.clone(), room.outside.len()), (None, 1));
     assert!(room.outside[0].parts.is_some_and(|parts| parts >= 1), "{:?}", room.outside);
     apply(&mut harness, Command::Sheet(Some(Sheet::Accuracy)));
     assert!(says(&harness, "its own view of the obstructions") && says(&harness, "sunlit"));

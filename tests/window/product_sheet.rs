@@ -19,7 +19,7 @@ fn write(folder: &Path, name: &str, text: &str) -> PathBuf {
 /// The product's sheet, by F2.
 fn edit(harness: &mut Harness<'_, App>, key: &str) {
     apply(harness, Command::EditProduct(Some(key.to_owned())));
-    assert_eq!(harness.state().state.sheet, Some(Sheet::Product));
+    assert_eq!(harness.state().shell.state.sheet, Some(Sheet::Product));
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     let mut harness = window();
     apply(&mut harness, Command::OpenPaths(vec![folder.path().to_owned()]));
     apply(&mut harness, Command::AddImport);
-    let shelf = harness.state().state.shelf().unwrap();
+    let shelf = harness.state().shell.state.shelf().unwrap();
     let tau = |place: usize| shelf.product("venetian").unwrap().states[place].tau_hemispherical.unwrap();
     let near = |value: f64, wanted: f64| assert!((value - wanted).abs() < 0.005, "{value} {wanted}");
     // Names and angles.
@@ -57,7 +57,7 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     harness.get_by_label("Read its files again").click();
     settle(&mut harness);
     near(tau(1), 0.2);
-    let told = harness.state().state.editing.as_ref().unwrap().reread.as_ref().unwrap().differences.clone();
+    let told = harness.state().products.editing().unwrap().reread.as_ref().unwrap().differences.clone();
     assert_eq!(told.len(), 1);
     assert!(told[0].starts_with("ven45.xml: τ changes from 0.2") && told[0].contains(" to 0.1"), "{told:?}");
     harness.get_by_label("Apply the changes").click();
@@ -80,7 +80,7 @@ fn a_stored_product_is_edited_read_again_and_given_other_data_and_all_of_it_is_u
     // The sheet says what happened.
     edit(&mut harness, "venetian");
     for words in ["added from ven0.xml, ven45.xml", "data of state 0 replaced by measured.xml"] {
-        let events = &harness.state().state.editing.as_ref().unwrap().looked.history;
+        let events = &harness.state().products.editing().unwrap().looked.history;
         assert!(events.iter().any(|event| event.what.contains(words)), "{words}: {events:?}");
     }
     assert!(harness.query_by_label("added from ven0.xml, ven45.xml").is_some());

@@ -6,8 +6,8 @@ use crate::files_view::{import, sheet, window};
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::import::ImportFields;
-use cfs::app::import_steps::{Choose, Step};
-use cfs::app::jobs::Lane;
+use cfs::app::import::{Choose, Step};
+use cfs::app::shell::jobs::Lane;
 use cfs::app::state::Sheet;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
@@ -51,7 +51,7 @@ fn what_was_taken_apart_is_together_again_after_undo() {
     assert_eq!(products(&h), before);
     // Nothing was stored, and what comes next is a step of its own.
     apply(&mut h, Command::AddImport);
-    assert_eq!(h.state().state.shelf().unwrap().product("raff-blind").unwrap().states.len(), 3);
+    assert_eq!(h.state().shell.state.shelf().unwrap().product("raff-blind").unwrap().states.len(), 3);
 }
 
 #[test]
@@ -71,14 +71,14 @@ fn two_steps_without_waiting_are_both_done() {
 #[test]
 fn nothing_is_stored_that_is_still_being_arranged() {
     let (_folder, mut h) = blinds();
-    let stored = h.state().state.found.total;
+    let stored = h.state().shell.state.found.total;
     for command in apart(0) {
         h.state_mut().apply(command);
     }
     h.state_mut().apply(Command::AddImport);
     settle(&mut h);
     assert_eq!(import(&h).products.len(), 4);
-    assert_eq!(h.state().state.found.total, stored);
+    assert_eq!(h.state().shell.state.found.total, stored);
 }
 
 #[test]
@@ -125,7 +125,7 @@ fn words_that_are_typed_while_files_are_arranged_stay() {
     }
     h.state_mut().apply(Command::DiscardImport);
     settle(&mut h);
-    assert!(h.state().state.import.is_none());
+    assert!(h.state().imports.open().is_none());
 }
 
 #[test]
@@ -133,14 +133,15 @@ fn findings_of_the_dataset_come_from_a_job_and_are_kept_by_content() {
     let mut h = window();
     h.state_mut().apply(Command::Sheet(Some(Sheet::Findings)));
     h.run_steps(1);
-    assert!(h.state().works_in(Lane::Findings) || h.state().state.examined.is_some());
+    assert!(h.state().works_in(Lane::Findings) || h.state().shell.state.examined.is_some());
     settle(&mut h);
-    let of = |h: &Harness<'_, App>| h.state().state.examined.clone().expect("examined");
+    let of = |h: &Harness<'_, App>| h.state().shell.state.examined.clone().expect("examined");
     let (dataset, found) = of(&h);
     assert_eq!(*found, cfs::compute::doctor::examine(&dataset));
     assert!(h.query_by_label("Checking the data…").is_none());
-    let first = h.state().state.document.selection.product.clone();
-    let other = h.state().state.found.entries.iter().map(|one| one.key.clone()).find(|key| *key != first).unwrap();
+    let first = h.state().shell.state.document.selection.product.clone();
+    let other =
+        h.state().shell.state.found.entries.iter().map(|one| one.key.clone()).find(|key| *key != first).unwrap();
     apply(&mut h, Command::Select(other));
     assert!(!std::sync::Arc::ptr_eq(&of(&h).1, &found));
     apply(&mut h, Command::Select(first));

@@ -3,7 +3,7 @@
 use crate::driven::{Idle, apply, frames, settle, window};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::room_look::{RoomLook, RoomView};
+use cfs::app::scene::room_look::{RoomLook, RoomView};
 use cfs::app::tiles::TILES;
 use cfs::study::scene_file::IlluminanceKey;
 use egui::{Key, Modifiers, Pos2, vec2};
@@ -22,7 +22,7 @@ fn room(view: RoomView) -> Harness<'static, App> {
 }
 
 fn aperture(harness: &Harness<'_, App>) -> ([f64; 2], [f64; 2]) {
-    let aperture = &harness.state().state.document.scene.aperture[0];
+    let aperture = &harness.state().shell.state.document.scene.aperture[0];
     (aperture.origin, aperture.size)
 }
 
@@ -52,14 +52,16 @@ fn a_sill_is_dragged_in_steps_coarse_at_first_and_one_undo_takes_it_back() {
     let to = sill - vec2(0.0, 0.52 * scale);
     drag(&mut harness, sill, to);
     crate::driven::step_until(&mut harness, "a coarse room", |app| {
-        app.results.room.value.as_ref().is_some_and(|room| room.coarse)
+        app.shell.results.room.value.as_ref().is_some_and(|room| room.coarse)
     });
     let (origin, size) = aperture(&harness);
     assert!((origin[1] - 1.4).abs() < 1e-9 && (size[1] - 1.3).abs() < 1e-9, "{origin:?} {size:?}");
     assert_eq!(value(&harness, "Aperture 1, sill"), "1.40 to 2.70 m, 1.30 m");
     harness.drop_at(to);
     settle(&mut harness);
-    assert!(!harness.state().results.room.value.as_ref().unwrap().coarse && !harness.state().results.room.stale);
+    assert!(
+        !harness.state().shell.results.room.value.as_ref().unwrap().coarse && !harness.state().shell.results.room.stale
+    );
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut harness);
     assert_eq!(aperture(&harness), before);
@@ -80,7 +82,7 @@ fn the_keyboard_moves_windows_and_plane() {
     harness.run_steps(2);
     harness.key_press(Key::ArrowDown);
     settle(&mut harness);
-    let plane = harness.state().state.document.scene.sensors.plane.unwrap();
+    let plane = harness.state().shell.state.document.scene.sensors.plane.unwrap();
     assert!((plane.z - 0.8).abs() < 1e-9, "{}", plane.z);
 }
 
@@ -99,7 +101,7 @@ fn a_window_moves_as_a_whole_in_the_plan() {
 #[test]
 fn listed_sensors_are_dots_that_move() {
     let mut harness = room(RoomView::Plan);
-    let sensors = &mut harness.state_mut().state.document.scene.sensors;
+    let sensors = &mut harness.state_mut().shell.state.document.scene.sensors;
     sensors.plane = None;
     sensors.points = vec![[2.0, 3.0, 0.85]];
     sensors.normal = Some([0.0, 0.0, 1.0]);
@@ -109,7 +111,7 @@ fn listed_sensors_are_dots_that_move() {
     harness.key_press(Key::ArrowRight);
     harness.key_press(Key::ArrowDown);
     settle(&mut harness);
-    assert_eq!(harness.state().state.document.scene.sensors.points, [[2.05, 3.05, 0.85]]);
+    assert_eq!(harness.state().shell.state.document.scene.sensors.points, [[2.05, 3.05, 0.85]]);
 }
 
 #[test]
@@ -122,14 +124,14 @@ fn daylight_factors_are_told_of_overcast_skies_alone() {
         clear.contains("no daylight factor: it needs an overcast CIE sky") && clear.contains("mean 1000 lx"),
         "{clear}"
     );
-    let sky = &mut harness.state_mut().state.document.scene.sky;
+    let sky = &mut harness.state_mut().shell.state.document.scene.sky;
     (sky.cie_type, sky.illuminance) = (Some(16), IlluminanceKey::Stated);
     (sky.diffuse_horizontal, sky.sun.direct_normal) = (Some(20_000.0), Some(0.0));
     settle(&mut harness);
     let overcast = value(&harness, "Floor plan of the room");
     // 1000 lx of 20 klx, ± 4 lx.
     assert!(overcast.contains("mean 5.00 %") && overcast.contains("U_o 1"), "{overcast}");
-    harness.state_mut().state.document.scene.sky.sun.direct_normal = Some(100.0);
+    harness.state_mut().shell.state.document.scene.sky.sun.direct_normal = Some(100.0);
     settle(&mut harness);
     assert!(value(&harness, "Floor plan of the room").contains("without sun"));
 }
@@ -138,9 +140,9 @@ fn daylight_factors_are_told_of_overcast_skies_alone() {
 fn the_perspective_asks_for_the_surfaces_and_turns() {
     let mut harness = window();
     // Nobody looks at the surfaces before.
-    assert!(harness.state().results.surfaces.value.is_none());
+    assert!(harness.state().shell.results.surfaces.value.is_none());
     apply(&mut harness, Command::RoomView(RoomView::Perspective));
-    let figures = harness.state().results.surfaces.value.clone().expect("surfaces");
+    let figures = harness.state().shell.results.surfaces.value.clone().expect("surfaces");
     let absorbed: f64 = figures
         .light
         .patches
@@ -158,7 +160,7 @@ fn the_perspective_asks_for_the_surfaces_and_turns() {
     assert!(harness.query_by_label_contains(" lx").is_some());
     apply(&mut harness, Command::RoomView(RoomView::Plan));
     apply(&mut harness, Command::Hour(1));
-    assert!(harness.state().results.surfaces.stale, "out of sight they wait");
+    assert!(harness.state().shell.results.surfaces.stale, "out of sight they wait");
     apply(&mut harness, Command::RoomView(RoomView::Perspective));
-    assert!(!harness.state().results.surfaces.stale);
+    assert!(!harness.state().shell.results.surfaces.stale);
 }

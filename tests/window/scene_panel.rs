@@ -1,10 +1,10 @@
 //! The scene panel: what is typed is taken or told, nothing else changes, and the illuminances are those of the moment.
 
 use crate::driven::{Idle, apply, coarsen, frames, services, settle};
-use cfs::app::backend::{StudyEngine, memory_shelf};
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
-use cfs::app::messages::Message;
+use cfs::app::results::backend::{StudyEngine, memory_shelf};
+use cfs::app::shell::messages::Message;
 use cfs::app::state::{PathUse, Settings, State};
 use cfs::app::title::title;
 use cfs::app::{App, Services};
@@ -24,11 +24,11 @@ fn window() -> Harness<'static, App> {
 }
 
 fn scene<'a>(harness: &'a Harness<'_, App>) -> &'a SceneFile {
-    &harness.state().state.document.scene
+    &harness.state().shell.state.document.scene
 }
 
 fn words(harness: &Harness<'_, App>) -> String {
-    title(&harness.state().state)
+    title(&harness.state().shell.state)
 }
 
 /// Types into a field and leaves it by Enter.
@@ -57,8 +57,8 @@ fn says(harness: &Harness<'_, App>, part: &str) -> bool {
 
 /// Mean of the room's illuminances. \[lx\]
 fn room_mean(harness: &Harness<'_, App>) -> f64 {
-    let room = harness.state().results.room.value.clone().unwrap();
-    assert!(!harness.state().results.room.stale);
+    let room = harness.state().shell.results.room.value.clone().unwrap();
+    assert!(!harness.state().shell.results.room.stale);
     let sum: f64 = room.direct.iter().chain(&room.interreflected).map(|estimate| estimate.value).sum();
     sum / room.direct.len() as f64
 }
@@ -83,7 +83,7 @@ fn a_saved_scene_goes_on_following_the_sun_and_is_dark_at_night() {
     harness.state_mut().apply(Command::Hour(11));
     settle(&mut harness);
     assert!(words(&harness).contains("21 Mar 23:00"));
-    let daylight = harness.state().state.daylight.value.clone().unwrap();
+    let daylight = harness.state().shell.state.daylight.value.clone().unwrap();
     assert!(daylight.outside.diffuse_horizontal() == 0.0 && daylight.sun.is_none());
     assert_eq!(room_mean(&harness), 0.0);
     assert!(says(&harness, "No daylight") && says(&harness, "below the horizon"));
@@ -112,7 +112,7 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
     let services = services(memory_shelf);
     let mut harness = frames(App::new(Services { engine: Arc::new(Idle), ..services }, settings), [1280.0, 720.0]);
     settle(&mut harness);
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     assert_eq!(state.document.scene, own);
     // The product's tiles are alive, the title says what lights the room.
     let shown = state.document.selection.clone();
@@ -120,7 +120,7 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
     assert!(words(&harness).starts_with("cfs – ideal diffuser · "), "{}", words(&harness));
     let told = |harness: &Harness<'_, App>| {
         let said = |message: &Message| message.text.contains("system of the scene (ideal diffuser)");
-        harness.state().toasts.all().filter(|message| said(message)).count()
+        harness.state().shell.toasts.all().filter(|message| said(message)).count()
     };
     assert_eq!(told(&harness), 1);
     // Put beside others, it is the scene's own.
@@ -134,7 +134,8 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
     harness.state_mut().apply(Command::OpenPaths(vec![path]));
     settle(&mut harness);
     assert_eq!((told(&harness), scene(&harness)), (2, &own));
-    let other = harness.state().state.found.entries.iter().find(|one| one.key != shown.product).unwrap().key.clone();
+    let other =
+        harness.state().shell.state.found.entries.iter().find(|one| one.key != shown.product).unwrap().key.clone();
     // So does the one that is chosen already.
     for wanted in [other, shown.product] {
         apply(&mut harness, Command::Select(wanted.clone()));
@@ -148,7 +149,7 @@ fn a_scene_of_its_own_system_keeps_it_until_a_product_is_chosen_for_the_room() {
 fn the_panel_shows_the_illuminances_that_are_used_and_lets_them_be_typed() {
     let mut harness = window();
     let klx = |harness: &Harness<'_, App>| {
-        let diffuse = harness.state().state.daylight.value.clone().unwrap().outside.diffuse_horizontal();
+        let diffuse = harness.state().shell.state.daylight.value.clone().unwrap().outside.diffuse_horizontal();
         format!("{:.2} klx", diffuse / 1000.0)
     };
     let before = klx(&harness);
@@ -170,7 +171,7 @@ fn the_panel_shows_the_illuminances_that_are_used_and_lets_them_be_typed() {
     // At night no such sky is: told, and without it darkness.
     harness.state_mut().apply(Command::Hour(10));
     settle(&mut harness);
-    assert!(says(&harness, "below −6°") && harness.state().state.scene_error.is_some());
+    assert!(says(&harness, "below −6°") && harness.state().shell.state.scene_error.is_some());
 }
 
 #[test]
@@ -179,7 +180,7 @@ fn dates_and_times_are_typed_and_what_is_wrong_changes_nothing() {
     enter(&mut harness, Role::TextInput, "Date", "1.12.2023");
     assert!(words(&harness).contains("1 Dec 12:00"), "{}", words(&harness));
     assert!(scene(&harness).sky.time.as_ref().unwrap().text().starts_with("2023-12-01"));
-    assert_eq!(harness.state().state.maximised, None, "digits are text");
+    assert_eq!(harness.state().shell.state.maximised, None, "digits are text");
     enter(&mut harness, Role::TextInput, "Local time", "12:33");
     assert!(words(&harness).contains("1 Dec 12:33"), "{}", words(&harness));
     // To the minute, whatever steps the slider has.
@@ -261,7 +262,7 @@ fn sizes_push_the_sill_and_say_so_and_what_cannot_be_is_refused() {
     assert_eq!(scene(&harness).aperture[0].origin[1], 0.7);
     assert!(says(&harness, "1.3 m is out of range"));
     // A field that is only looked at rounds nothing.
-    harness.state_mut().state.document.scene.aperture[0].origin[0] = 0.123_456;
+    harness.state_mut().shell.state.document.scene.aperture[0].origin[0] = 0.123_456;
     harness.run_steps(2);
     harness.get_by_role_and_label(Role::SpinButton, "Distance from left").focus();
     harness.run_steps(2);
@@ -291,8 +292,8 @@ fn nothing_in_the_panel_moves_when_the_sun_rises_sets_or_leaves_the_facade() {
     for stated in [false, true] {
         if stated {
             // With typed figures the night is told too.
-            cfs::app::scene::follow(&mut harness.state_mut().state.document.scene, IlluminanceKey::Stated);
-            harness.state_mut().state.document.scene.sky.diffuse_horizontal = Some(9000.0);
+            cfs::app::scene::follow(&mut harness.state_mut().shell.state.document.scene, IlluminanceKey::Stated);
+            harness.state_mut().shell.state.document.scene.sky.diffuse_horizontal = Some(9000.0);
             settle(&mut harness);
         }
         let at_first = layout(&harness);

@@ -1,10 +1,11 @@
 //! Names in scripts that the built-in fonts do not have.
 
 use crate::driven::{select, services, settle};
-use cfs::app::backend::ideals_shelf;
-use cfs::app::error::AppError;
-use cfs::app::fonts::{FindFonts, no_fonts};
-use cfs::app::shelf::{Addition, Query, Shelf};
+use cfs::app::catalogue::shelf::{Addition, Query, Shelf};
+use cfs::app::display::font_search::FontSearch;
+use cfs::app::display::fonts::{FindFonts, no_fonts};
+use cfs::app::results::backend::ideals_shelf;
+use cfs::app::shell::error::AppError;
 use cfs::app::state::Settings;
 use cfs::app::{App, Services};
 use cfs::catalogue::NewProduct;
@@ -28,7 +29,7 @@ fn shelf() -> Result<Arc<dyn Shelf>, AppError> {
 
 fn window(services: Services, find_fonts: FindFonts) -> Harness<'static, App> {
     let mut app = App::new(services, Settings::default());
-    app.find_fonts = find_fonts;
+    app.fonts = FontSearch::new(find_fonts);
     let mut harness =
         Harness::builder().with_size([1280.0, 720.0]).with_max_steps(200).allow_missing_glyphs().build_ui_state(
             |ui, app: &mut App| {
@@ -46,7 +47,7 @@ fn window(services: Services, find_fonts: FindFonts) -> Harness<'static, App> {
 fn characters_that_no_font_has_are_named_once() {
     let mut harness = window(services(shelf), no_fonts);
     select(&mut harness, |entry| entry.name.starts_with('铝'));
-    let messages = harness.state().toasts.all().map(|message| &message.text);
+    let messages = harness.state().shell.toasts.all().map(|message| &message.text);
     let named: Vec<_> = messages.filter(|text| text.contains("铝 (U+94DD)")).collect();
     assert_eq!(named.len(), 1, "{named:?}");
 }
@@ -66,5 +67,5 @@ fn fonts_are_looked_for_when_a_text_needs_them_and_not_before() {
     let mut harness = window(services(shelf), find);
     select(&mut harness, |entry| entry.name.starts_with('铝'));
     assert!((1..4).contains(&SEARCHES.load(Ordering::Relaxed)) && known(&harness));
-    assert!(!harness.state().toasts.all().any(|message| message.text.contains("U+")));
+    assert!(!harness.state().shell.toasts.all().any(|message| message.text.contains("U+")));
 }

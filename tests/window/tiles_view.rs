@@ -3,15 +3,15 @@
 use crate::driven::{apply, frames, services, settle};
 use crate::legible::can_be_read;
 use cfs::app::App;
-use cfs::app::arrange::{Arrange, Preset};
-use cfs::app::backend::ideals_shelf;
+use cfs::app::catalogue::shelf::Addition;
 use cfs::app::command::Command;
-use cfs::app::data_looks::NoSchemes;
-use cfs::app::jobs::Lane;
-use cfs::app::language::LanguageChoice;
-use cfs::app::shelf::Addition;
+use cfs::app::display::language::LanguageChoice;
+use cfs::app::results::backend::ideals_shelf;
+use cfs::app::results::data_looks::NoSchemes;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::state::{Settings, Tile};
 use cfs::app::tiles::TILES;
+use cfs::app::tiles::arrange::{Arrange, Preset};
 use cfs::catalogue::NewProduct;
 use cfs::compute::angle::Bearing;
 use cfs::compute::basis::RingBasis;
@@ -65,24 +65,24 @@ fn window(title: &str) -> Harness<'static, App> {
 #[test]
 fn the_btdf_tile_shows_data_filtered_and_compressed_and_tells_how_far_they_are_off() {
     let mut harness = window("BTDF");
-    assert!(harness.state().results.form.value.is_none(), "nothing is computed that nobody looks at");
+    assert!(harness.state().shell.results.form.value.is_none(), "nothing is computed that nobody looks at");
     apply(&mut harness, Command::DataForm(DataForm::Filtered));
-    let made = harness.state().results.form.value.clone().expect("a form of the data");
+    let made = harness.state().shell.results.form.value.clone().expect("a form of the data");
     let filtered = made.made.as_ref().expect("a lattice of patches");
     assert!(matches!(filtered.how, How::Filter { in_force: false, .. }));
     harness.get_by_label_contains("% of the flux moved");
     // The same incidence is not filtered again.
     apply(&mut harness, Command::Hour(0));
-    assert!(Arc::ptr_eq(&made, harness.state().results.form.value.as_ref().unwrap()));
+    assert!(Arc::ptr_eq(&made, harness.state().shell.results.form.value.as_ref().unwrap()));
     apply(&mut harness, Command::DataForm(DataForm::Compact));
     harness.get_by_label_contains("compressed: ");
-    let compact = harness.state().results.form.value.clone().unwrap();
+    let compact = harness.state().shell.results.form.value.clone().unwrap();
     assert!(matches!(compact.made.as_ref().unwrap().how, How::Wavelets { in_force: false, .. }));
     // Another incidence has data of its own.
     apply(&mut harness, Command::Incidence(Some(Incident(Dir::from_theta_phi(0.9, 0.3)))));
-    assert!(!Arc::ptr_eq(&compact, harness.state().results.form.value.as_ref().unwrap()));
+    assert!(!Arc::ptr_eq(&compact, harness.state().shell.results.form.value.as_ref().unwrap()));
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
-    assert_eq!(harness.state().results.form.value.as_ref().unwrap().made, Err(NoForm::NoValues));
+    assert_eq!(harness.state().shell.results.form.value.as_ref().unwrap().made, Err(NoForm::NoValues));
     assert!(harness.query_all_by_label_contains("Nothing to filter or compress").next().is_some());
     apply(&mut harness, Command::DataForm(DataForm::Measured));
     assert!(harness.query_all_by_label_contains("Nothing to filter or compress").next().is_none());
@@ -97,8 +97,10 @@ fn what_was_stopped_says_so_and_is_asked_for_again() {
     harness.state_mut().apply(Command::Cancel(Lane::Schemes));
     // Before the first frame nothing has begun: they are asked for all the same.
     settle(&mut harness);
-    assert!(harness.state().results.form.value.is_some() && harness.state().results.schemes.value.is_some());
-    let before = harness.state().results.form.value.clone().unwrap();
+    assert!(
+        harness.state().shell.results.form.value.is_some() && harness.state().shell.results.schemes.value.is_some()
+    );
+    let before = harness.state().shell.results.form.value.clone().unwrap();
     // Stopped while it is made.
     harness.state_mut().apply(Command::Incidence(Some(Incident(Dir::from_theta_phi(0.7, 0.2)))));
     while !harness.state().works_in(Lane::DataForm) {
@@ -106,10 +108,10 @@ fn what_was_stopped_says_so_and_is_asked_for_again() {
     }
     harness.state_mut().apply(Command::Cancel(Lane::DataForm));
     settle(&mut harness);
-    let form = &harness.state().results.form;
+    let form = &harness.state().shell.results.form;
     assert!(form.error.is_some() && Arc::ptr_eq(&before, form.value.as_ref().unwrap()));
     apply(&mut harness, Command::DataForm(DataForm::Filtered));
-    let form = &harness.state().results.form;
+    let form = &harness.state().shell.results.form;
     assert!(form.error.is_none() && !Arc::ptr_eq(&before, form.value.as_ref().unwrap()));
 }
 
@@ -117,7 +119,7 @@ fn what_was_stopped_says_so_and_is_asked_for_again() {
 fn the_map_of_schemes_says_why_under_the_cursor() {
     let mut harness = window("BTDF");
     apply(&mut harness, Command::SchemeMap);
-    let map = harness.state().results.schemes.value.clone().expect("a map");
+    let map = harness.state().shell.results.schemes.value.clone().expect("a map");
     assert!(map.made.as_ref().expect("triangles").len() > 200);
     let disk = harness.get_by_label("Incident hemisphere").rect();
     harness.hover_at(disk.center() + vec2(0.2, -0.3) * disk.width());
@@ -125,20 +127,20 @@ fn the_map_of_schemes_says_why_under_the_cursor() {
     let told = cfs::app::paint::tile::pointed_foot(&harness.ctx).expect("a line under the tile");
     assert!(told.contains("misplaces about") && told.contains('%'), "{told}");
     crate::driven::select(&mut harness, |entry| entry.name == "Ideal diffuser");
-    assert_eq!(harness.state().results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::ClosedForm));
+    assert_eq!(harness.state().shell.results.schemes.value.as_ref().unwrap().made, Err(NoSchemes::ClosedForm));
     harness.get_by_label_contains("No map of schemes");
 }
 
 #[test]
 fn the_dome_shows_boxes_as_the_first_aperture_sees_them() {
     let mut harness = window("Sky");
-    assert!(harness.state().state.daylight.value.as_ref().unwrap().seen.is_none());
+    assert!(harness.state().shell.state.daylight.value.as_ref().unwrap().seen.is_none());
     let solid = BoxKeys { from: [-50.0, -30.0, 0.0], to: [50.0, -20.0, 40.0], turn: 0.0 };
-    let scene = &mut harness.state_mut().state.document.scene;
+    let scene = &mut harness.state_mut().shell.state.document.scene;
     scene.outside = vec![OutsideKeys { name: String::new(), solid, reflectance: None, luminance: Some(500.0) }];
     let bearing = Bearing::from_degrees(scene.site.azimuth);
     settle(&mut harness);
-    let daylight = harness.state().state.daylight.value.as_ref().unwrap();
+    let daylight = harness.state().shell.state.daylight.value.as_ref().unwrap();
     let seen = daylight.seen.as_ref().expect("a box before the sky");
     let at = |altitude: f64| Dir::from_altitude_bearing(altitude.to_radians(), bearing);
     // From 1.8 m above the ground its top, 20 m away, is 62° high.

@@ -17,7 +17,7 @@ fn window() -> Harness<'static, App> {
 }
 
 fn stop(harness: &Harness<'_, App>) -> Option<Stop> {
-    harness.state().state.tour.as_ref().map(|tour| tour.stop)
+    harness.state().tour.stop()
 }
 
 #[test]
@@ -49,9 +49,9 @@ fn each_step_is_done_by_what_it_asks_for_and_by_nothing_else() {
     assert!(harness.query_by_label("Step 5 of 5").is_some());
     harness.key_press_modifiers(Modifiers::COMMAND, Key::E);
     settle(&mut harness);
-    assert_eq!((stop(&harness), harness.state().state.sheet), (None, Some(Sheet::Export)));
-    assert_eq!(harness.state().state.settings.tour, 5);
-    assert!(harness.state().toasts.all().any(|message| message.text.starts_with("The tour is finished")));
+    assert_eq!((stop(&harness), harness.state().shell.state.sheet), (None, Some(Sheet::Export)));
+    assert_eq!(harness.state().shell.state.settings.tour, 5);
+    assert!(harness.state().shell.toasts.all().any(|message| message.text.starts_with("The tour is finished")));
 }
 
 #[test]
@@ -64,7 +64,7 @@ fn escape_leaves_it_and_it_goes_on_where_it_was_left() {
     apply(&mut harness, Command::Sheet(Some(Sheet::Keys)));
     harness.key_press(Key::Escape);
     settle(&mut harness);
-    assert_eq!((stop(&harness), harness.state().state.sheet), (Some(Stop::Sun), None));
+    assert_eq!((stop(&harness), harness.state().shell.state.sheet), (Some(Stop::Sun), None));
     harness.key_press(Key::Escape);
     settle(&mut harness);
     assert_eq!(stop(&harness), None);

@@ -3,8 +3,8 @@
 use crate::driven::{apply, harness, select, services, settle, window};
 use crate::legible::inspect::words;
 use cfs::app::App;
-use cfs::app::backend::ideals_shelf;
 use cfs::app::command::Command;
+use cfs::app::results::backend::ideals_shelf;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::app::tiles::TILES;
 use cfs::compute::direction::{Dir, Incident};
@@ -25,7 +25,7 @@ fn says(harness: &Harness<'_, App>, part: &str) -> usize {
 }
 
 fn face(harness: &mut Harness<'_, App>, azimuth: f64) {
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.site.azimuth = azimuth;
     apply(harness, Command::Scene(Box::new(scene)));
 }
@@ -52,7 +52,7 @@ fn all_that_speaks_of_an_incidence_speaks_of_the_same_one() {
         assert!(text.starts_with("chosen direction at θ 40°, φ 120°, profile angle 36°"), "{name}: {text}");
     }
     // The share that the bar tells is the τ of that line.
-    let dataset = harness.state().state.dataset.value.clone().unwrap();
+    let dataset = harness.state().shell.state.dataset.value.clone().unwrap();
     let tau = dataset.transmission().unwrap().tau(chosen);
     assert!(value(&harness, "Flux split").contains(&format!("Of {:.0} % transmitted", 100.0 * tau)), "{tau}");
     // And in words on the screen: both lines and the bar.
@@ -71,7 +71,7 @@ fn status_line_and_room_tile_state_the_same_error() {
     let mut harness = window();
     harness.set_size([1920.0, 1080.0].into());
     harness.run_steps(3);
-    let room = harness.state().results.room.value.clone().unwrap();
+    let room = harness.state().shell.results.room.value.clone().unwrap();
     let greatest = room.totals().map(|total| total.error / total.value).fold(0.0, f64::max);
     assert!(greatest > 5e-5, "an error that can be told: {greatest}");
     let stated = value(&harness, "Floor plan of the room");
@@ -96,8 +96,8 @@ fn the_peaks_told_are_those_of_the_luminaire_file() {
         maximise(&mut harness, "LID");
         apply(&mut harness, Command::Write(PathUse::ExportLid, path.clone()));
         let file = eulumdat::read(&std::fs::read(&path).unwrap()).unwrap();
-        let peaks = *harness.state().results.lid_peaks().expect("peaks");
-        let lid = harness.state().results.lid.value.clone().unwrap();
+        let peaks = *harness.state().shell.results.lid_peaks().expect("peaks");
+        let lid = harness.state().shell.results.lid.value.clone().unwrap();
         assert_eq!(!lid.lid.beams.is_empty(), beam, "{name}");
         let (scattered, sun) = (peaks.scattered.unwrap(), peaks.beam);
         let greatest = sun.map_or(scattered.intensity, |sun| sun.intensity.max(scattered.intensity));
@@ -206,7 +206,7 @@ fn what_is_old_and_not_renewed_says_so() {
     let mut harness = window();
     assert_eq!(says(&harness, "outdated"), 0);
     // As after a job that was stopped.
-    harness.state_mut().results.room.stale = true;
+    harness.state_mut().shell.results.room.stale = true;
     harness.run_steps(2);
     assert!(says(&harness, "outdated") > 0 && says(&harness, ", outdated") > 0, "{:?}", words(&harness));
     assert_eq!(says(&harness, "updating"), 0);

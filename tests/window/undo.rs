@@ -3,11 +3,12 @@
 
 use crate::driven::{Idle, apply, frames, settle};
 use crate::files_view::sheet;
-use cfs::app::backend::memory_shelf;
+use cfs::app::catalogue::shelf::{Entry, Query};
 use cfs::app::command::Command;
 use cfs::app::compare::Act;
 use cfs::app::offer::offers;
-use cfs::app::shelf::{Entry, Query};
+use cfs::app::results::backend::memory_shelf;
+use cfs::app::tour::TourAct;
 use cfs::app::{App, state::Document};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
@@ -22,14 +23,14 @@ struct Kept {
 }
 
 fn kept(harness: &Harness<'_, App>) -> Kept {
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     let row = |entry: &Arc<Entry>| (entry.key.clone(), entry.name.clone(), entry.favourite);
     // All of the catalogue, whatever the list was asked for.
     let all = state.shelf().unwrap().search(&Query::default()).unwrap();
     Kept {
         document: state.document.clone(),
         products: all.entries.iter().map(row).collect(),
-        deleted: state.deleted.len(),
+        deleted: harness.state().products.deleted().len(),
     }
 }
 
@@ -50,12 +51,12 @@ fn every_offered_command_that_changes_something_is_taken_back() {
     let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
     settle(&mut harness);
     // A product that moves, in a state in the middle; something in the tray; another scene than the first.
-    let moving = harness.state().state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().clone();
+    let moving = harness.state().shell.state.found.entries.iter().find(|entry| entry.states.len() > 3).unwrap().clone();
     harness.state_mut().apply(Command::Select(moving.key.clone()));
     settle(&mut harness);
     harness.state_mut().apply(Command::SelectState(moving.states[1].clone()));
     harness.state_mut().apply(Command::Compare(Act::Add));
-    harness.state_mut().state.document.scene.site.azimuth = 200.0;
+    harness.state_mut().shell.state.document.scene.site.azimuth = 200.0;
     rest(&mut harness);
     let mut changing = Vec::new();
     for offer in offers().iter().filter(|offer| !left_out(&offer.command)) {
@@ -76,9 +77,10 @@ fn every_offered_command_that_changes_something_is_taken_back() {
             assert_eq!(kept(&harness), before, "{} once more", offer.text);
         }
         // What was opened is closed again; whatever it is, it is none of the history.
-        let state = &mut harness.state_mut().state;
+        let state = &mut harness.state_mut().shell.state;
         (state.sheet, state.palette, state.compare.open, state.compare.swapped) = (None, None, false, None);
-        (state.maximised, state.tour) = (None, None);
+        state.maximised = None;
+        harness.state_mut().apply(Command::Tour(TourAct::Leave));
     }
     for expected in [
         "One hour later",
@@ -125,12 +127,12 @@ fn products_that_take_long_to_store_are_taken_back_in_one_step() {
     let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
     settle(&mut harness);
     apply(&mut harness, Command::OpenPaths(vec![file]));
-    let key = harness.state().state.found.entries[0].key.clone();
+    let key = harness.state().shell.state.found.entries[0].key.clone();
     // A frame makes one change of the catalogue: the product waits for longer than the history does for a step.
     for change in 0..20 {
         harness.state_mut().apply(Command::Favourite(key.clone(), change % 2 == 0));
     }
-    let (before, count) = (harness.state().state.document.clone(), kept(&harness).products.len());
+    let (before, count) = (harness.state().shell.state.document.clone(), kept(&harness).products.len());
     harness.state_mut().apply(Command::AddImport);
     rest(&mut harness);
     let added = kept(&harness);
@@ -144,7 +146,7 @@ fn nothing_is_redone_after_a_new_step() {
     let mut harness = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
     settle(&mut harness);
     let star = |harness: &Harness<'_, App>| {
-        let entry = harness.state().state.found.entries.first().unwrap().clone();
+        let entry = harness.state().shell.state.found.entries.first().unwrap().clone();
         Command::Favourite(entry.key.clone(), !entry.favourite)
     };
     let command = star(&harness);

@@ -5,9 +5,9 @@
 
 use crate::common::compares_pictures;
 use crate::legible::inspect::words_within;
-use cfs::app::incidence::{Incidence, Source};
 use cfs::app::paint::hemisphere::{Projection, incident_disk};
 use cfs::app::paint::tile::Status;
+use cfs::app::scene::incidence::{Incidence, Source};
 use cfs::app::views::{btdf, control, lid, room, sky, transmittance};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix};

@@ -3,11 +3,11 @@
 use crate::driven::{apply, coarsen, frames, settle, step_until};
 use crate::legible::can_be_read;
 use cfs::app::App;
-use cfs::app::backend::{StudyEngine, ideals_shelf};
 use cfs::app::command::Command;
-use cfs::app::export_choices::{Preview, What};
-use cfs::app::jobs::Lane;
-use cfs::app::moment;
+use cfs::app::export::choices::{Preview, What};
+use cfs::app::results::backend::{StudyEngine, ideals_shelf};
+use cfs::app::scene::moment;
+use cfs::app::shell::jobs::Lane;
 use cfs::app::tiles::YEAR;
 use cfs::app::year::YearAct;
 use cfs::report::TileKind;
@@ -28,7 +28,7 @@ fn window() -> Harness<'static, App> {
     let mut harness = frames(app, [1280.0, 720.0]);
     coarsen(&mut harness, [2, 2]);
     settle(&mut harness);
-    let found = harness.state().state.found.clone();
+    let found = harness.state().shell.state.found.clone();
     let diffuser = found.entries.iter().find(|entry| entry.name == "Ideal diffuser").unwrap().key.clone();
     apply(&mut harness, Command::Select(diffuser));
     apply(&mut harness, Command::Maximise(Some(YEAR)));
@@ -38,7 +38,9 @@ fn window() -> Harness<'static, App> {
 fn computed() -> Harness<'static, App> {
     let mut harness = window();
     harness.get_by_label("Compute a year").click();
-    step_until(&mut harness, "the year begins", |app| app.works_in(Lane::Annual) || app.results.annual.value.is_some());
+    step_until(&mut harness, "the year begins", |app| {
+        app.works_in(Lane::Annual) || app.shell.results.annual.value.is_some()
+    });
     settle(&mut harness);
     harness
 }
@@ -63,10 +65,11 @@ fn click(harness: &mut Harness<'_, App>, at: Pos2) {
 fn a_scene_without_a_year_is_given_one_computed_and_asked_back() {
     let mut harness = computed();
     let app = harness.state();
-    let keys = app.state.document.scene.year.clone().expect("the scene has a year");
+    let keys = app.shell.state.document.scene.year.clone().expect("the scene has a year");
     // The nearest to Stuttgart of those that come with the program.
     assert_eq!(keys.weather, PathBuf::from("builtin:piedmont"));
-    let annual = app.results.annual.value.clone().unwrap_or_else(|| panic!("{:?}", app.results.annual.error));
+    let annual =
+        app.shell.results.annual.value.clone().unwrap_or_else(|| panic!("{:?}", app.shell.results.annual.error));
     assert_eq!((annual.year.steps.list.len(), annual.year.light.places), (8760, 4 + 1));
     assert!(harness.query_by_label(MAP).is_some() && harness.query_by_label("Compute a year").is_none());
     // Its figures, as the study has them.
@@ -75,7 +78,7 @@ fn a_scene_without_a_year_is_given_one_computed_and_asked_back() {
     assert!(harness.query_by_label("DA300").is_some());
     assert!(harness.query_all_by_label_contains(&format!("{:.1} ± ", 100.0 * da)).count() > 0, "{da}");
     // Another room: what is shown is said to be of before, until it is computed again.
-    let mut scene = harness.state().state.document.scene.clone();
+    let mut scene = harness.state().shell.state.document.scene.clone();
     scene.room.reflectance.walls = 0.7;
     apply(&mut harness, Command::Scene(Box::new(scene)));
     assert!(harness.query_by_label("outdated").is_some());
@@ -87,28 +90,28 @@ fn a_scene_without_a_year_is_given_one_computed_and_asked_back() {
     // Two steps back: the scene has no year again.
     apply(&mut harness, Command::Undo);
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene.year, None);
+    assert_eq!(harness.state().shell.state.document.scene.year, None);
 }
 
 #[test]
 fn a_click_on_an_hour_shows_it_everywhere_and_keys_go_on_from_there() {
     let mut harness = computed();
-    let before = harness.state().state.document.scene.clone();
+    let before = harness.state().shell.state.document.scene.clone();
     // 21 June, 12 to 13 h of standard time, by the clock of Stuttgart an hour later.
     let at = place(&harness, MAP, 171.0, 12.0);
     click(&mut harness, at);
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     assert_eq!((scene.sky.model, scene.sky.weather.clone()), (SkyModelKey::Weather, Some(YEARS[1].name())));
     assert_eq!(moment::words(moment::of(&scene).unwrap()), "21 Jun 13:30");
     assert_eq!(scene.year, before.year, "the year stays what it is");
     // The room of that moment is the year's row.
     apply(&mut harness, Command::Maximise(None));
     let app = harness.state();
-    let annual = app.results.annual.value.clone().unwrap();
-    assert!(annual.is_of(&app.state.document.scene));
+    let annual = app.shell.results.annual.value.clone().unwrap();
+    assert!(annual.is_of(&app.shell.state.document.scene));
     let step = annual.now(&scene).unwrap();
-    let room = app.results.room.value.clone().unwrap();
-    assert!(!app.results.room.stale, "{:?}", app.results.room.error);
+    let room = app.shell.results.room.value.clone().unwrap();
+    assert!(!app.shell.results.room.stale, "{:?}", app.shell.results.room.error);
     let row = &annual.year.light.values.row(step)[..4];
     for (place, own) in row.iter().enumerate() {
         let total = room.total(place).value;
@@ -123,13 +126,13 @@ fn a_click_on_an_hour_shows_it_everywhere_and_keys_go_on_from_there() {
         harness.run_steps(2);
     }
     settle(&mut harness);
-    let now = moment::of(&harness.state().state.document.scene).unwrap();
+    let now = moment::of(&harness.state().shell.state.document.scene).unwrap();
     assert_eq!(moment::words(now), "22 Jun 14:30");
     // What keys walked over is no step each: back to where was clicked, and to before.
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene, scene);
+    assert_eq!(harness.state().shell.state.document.scene, scene);
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene, before);
+    assert_eq!(harness.state().shell.state.document.scene, before);
 }
 
 #[test]
@@ -142,11 +145,11 @@ fn pages_are_looked_at_and_handed_on() {
     assert!(harness.query_by_label("Lighting energy by month").is_some());
     apply(&mut harness, Command::Year(YearAct::Look(look(Page::Map, Shows::Dgps(0)))));
     assert!(harness.query_by_label("Hours of the year: DGPs, observer 1").is_some());
-    let mut choices = harness.state().state.settings.export.clone();
+    let mut choices = harness.state().shell.state.settings.export.clone();
     (choices.what, choices.tile, choices.vector) = (What::Picture, TileKind::Year, true);
     apply(&mut harness, Command::ExportTile(YEAR));
     apply(&mut harness, Command::ExportChoices(Box::new(choices.clone())));
-    let shown = |harness: &Harness<'_, App>| match harness.state().state.export.shown.as_ref() {
+    let shown = |harness: &Harness<'_, App>| match harness.state().export.preview() {
         Some(Ok(Preview::Picture([width, height], ..))) => format!("{width} {height}"),
         Some(Ok(Preview::Text(text, _))) => text.clone(),
         other => panic!("{}", matches!(other, Some(Err(_)))),
@@ -167,11 +170,11 @@ fn pages_are_looked_at_and_handed_on() {
 #[test]
 fn without_a_year_nothing_of_it_is_handed_on() {
     let mut harness = window();
-    let mut choices = harness.state().state.settings.export.clone();
+    let mut choices = harness.state().shell.state.settings.export.clone();
     (choices.what, choices.tile) = (What::Table, TileKind::Year);
     apply(&mut harness, Command::ExportTile(YEAR));
     apply(&mut harness, Command::ExportChoices(Box::new(choices)));
-    let Some(Err(told)) = &harness.state().state.export.shown else { panic!("a year out of nothing") };
+    let Some(Err(told)) = &harness.state().export.preview() else { panic!("a year out of nothing") };
     assert!(told.contains("compute one in the Year tile"), "{told}");
 }
 
@@ -182,7 +185,7 @@ fn an_hour_is_picked_from_the_calendar_of_a_file_that_was_dropped() {
     let path = folder.path().join("coast.weather.txt");
     std::fs::write(&path, YEARS[2].table).unwrap();
     apply(&mut harness, Command::OpenPaths(vec![path.clone()]));
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     assert_eq!(scene.sky.weather.as_deref(), Some(&*path));
     assert_eq!(moment::words(moment::of(&scene).unwrap()), "21 Mar 12:00", "the moment stays");
     harness.get_by_label("Weather and year").click();
@@ -192,15 +195,15 @@ fn an_hour_is_picked_from_the_calendar_of_a_file_that_was_dropped() {
     harness.run_steps(4);
     let at = place(&harness, map, 180.0, 9.0);
     click(&mut harness, at);
-    let scene = harness.state().state.document.scene.clone();
+    let scene = harness.state().shell.state.document.scene.clone();
     let time = moment::of(&scene).unwrap();
     // A day is half a point wide in the panel.
     assert!((178..=184).contains(&time.day_of_year()) && (8..=10).contains(&time.hour()), "{time}");
-    assert!(harness.state().state.scene_error.is_none(), "{:?}", harness.state().state.scene_error);
-    assert!(harness.state().state.daylight.value.as_ref().unwrap().outside.diffuse_horizontal() > 100.0);
+    assert!(harness.state().shell.state.scene_error.is_none(), "{:?}", harness.state().shell.state.scene_error);
+    assert!(harness.state().shell.state.daylight.value.as_ref().unwrap().outside.diffuse_horizontal() > 100.0);
     apply(&mut harness, Command::Undo);
     apply(&mut harness, Command::Undo);
-    assert_eq!(harness.state().state.document.scene.sky.weather, None);
+    assert_eq!(harness.state().shell.state.document.scene.sky.weather, None);
 }
 
 #[test]
@@ -208,9 +211,9 @@ fn a_year_is_stopped_and_a_wrong_weather_is_told() {
     let mut harness = window();
     apply(&mut harness, Command::Year(YearAct::WeatherOfYear(PathBuf::from("nowhere.epw"))));
     harness.get_by_label("Compute a year").click();
-    step_until(&mut harness, "it is told", |app| app.results.annual.error.is_some());
+    step_until(&mut harness, "it is told", |app| app.shell.results.annual.error.is_some());
     settle(&mut harness);
-    let error = harness.state().results.annual.error.clone().unwrap();
+    let error = harness.state().shell.results.annual.error.clone().unwrap();
     assert!(error.contains("nowhere.epw"), "{error}");
     assert!(harness.query_all_by_label_contains("nowhere.epw").count() > 0);
     apply(&mut harness, Command::Year(YearAct::WeatherOfYear(YEARS[0].name())));
@@ -219,7 +222,7 @@ fn a_year_is_stopped_and_a_wrong_weather_is_told() {
     harness.state_mut().apply(Command::Cancel(Lane::Annual));
     settle(&mut harness);
     let app = harness.state();
-    assert!(app.results.annual.value.is_none() && !app.works_in(Lane::Annual));
+    assert!(app.shell.results.annual.value.is_none() && !app.works_in(Lane::Annual));
     assert!(harness.query_by_label("Compute a year").is_some());
 }
 

@@ -5,11 +5,11 @@
 //! they exchange the two tiles, with Alt they make the tile wider, narrower, higher or lower; Enter lets it fill the
 //! tile area.
 
-use crate::app::arrange::{Arrange, Way};
 use crate::app::command::Command;
+use crate::app::display::theme::{self, TILE_GAP};
 use crate::app::offer;
 use crate::app::state::Tile;
-use crate::app::theme::{self, TILE_GAP};
+use crate::app::tiles::arrange::{Arrange, Way};
 use crate::app::tiles::{TILES, TileInput};
 use crate::app::window::App;
 use crate::texts::tiles as say;
@@ -21,29 +21,29 @@ const LEAST: f32 = 120.0;
 
 /// Draws the tile area.
 pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
-    if let Err(problem) = app.bench.follow(app.state.settings.layout.as_ref()) {
-        app.state.settings.layout = None;
-        app.toasts.warning(say::layout_unreadable(problem));
+    if let Err(problem) = app.shell.bench.follow(app.shell.state.settings.layout.as_ref()) {
+        app.shell.state.settings.layout = None;
+        app.shell.toasts.warning(say::layout_unreadable(problem));
     }
-    app.bench.times.clear();
+    app.shell.bench.times.clear();
     let whole = ui.available_rect_before_wrap();
-    if let Some(tile) = app.state.maximised {
-        app.bench.places = vec![(tile, whole)];
+    if let Some(tile) = app.shell.state.maximised {
+        app.shell.bench.places = vec![(tile, whole)];
         frame(ui, whole, tile, app, commands);
         return;
     }
     // The tiles are drawn by the tile area that holds the tree.
-    let mut tree = std::mem::replace(&mut app.bench.tree, Tree::empty(egui::Id::unique("bench")));
-    app.bench.places.clear();
+    let mut tree = std::mem::replace(&mut app.shell.bench.tree, Tree::empty(egui::Id::unique("bench")));
+    app.shell.bench.places.clear();
     let spacing = tab_spacing(ui, &tree);
     let mut behaviour = Docking { app, commands, edited: false, spacing };
     tree.ui(&mut behaviour, ui);
     let edited = behaviour.edited;
-    app.bench.tree = tree;
+    app.shell.bench.tree = tree;
     if edited {
-        let text = app.bench.layout().text();
-        app.bench.text = Some(text.clone());
-        app.state.settings.layout = Some(text);
+        let text = app.shell.bench.layout().text();
+        app.shell.bench.text = Some(text.clone());
+        app.shell.state.settings.layout = Some(text);
     }
 }
 
@@ -80,7 +80,7 @@ struct Docking<'a> {
 impl Behavior<Tile> for Docking<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _id: TileId, tile: &mut Tile) -> UiResponse {
         let rect = ui.max_rect();
-        self.app.bench.places.push((*tile, rect));
+        self.app.shell.bench.places.push((*tile, rect));
         let dragged = frame(ui, rect, *tile, self.app, self.commands);
         if dragged { UiResponse::DragStarted } else { UiResponse::None }
     }
@@ -148,44 +148,44 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, say::tile_named(tile.name)));
     response.context_menu(|ui| menu(ui, tile, commands));
     // The head that has the keyboard is not asked while another one is about to get it.
-    let focused = response.has_focus() && !app.bench.to_focus;
+    let focused = response.has_focus() && !app.shell.bench.to_focus;
     if response.clicked() || response.secondary_clicked() || response.drag_started() || focused {
-        app.bench.in_hand = tile;
+        app.shell.bench.in_hand = tile;
     }
-    if app.bench.to_focus && app.bench.in_hand == tile {
-        app.bench.to_focus = false;
+    if app.shell.bench.to_focus && app.shell.bench.in_hand == tile {
+        app.shell.bench.to_focus = false;
         response.request_focus();
     }
-    let fill = Command::Maximise(if app.state.maximised.is_some() { None } else { Some(tile) });
+    let fill = Command::Maximise(if app.shell.state.maximised.is_some() { None } else { Some(tile) });
     if response.double_clicked() {
         commands.push(fill.clone());
     }
     keys(ui, &response, &fill, commands);
     // Numbers wait for what is being computed: what is written is of what its name says.
-    let mut numbers = app.export.wants_numbers(tile) && app.standing();
-    let (state, results) = app.compare.shown(&app.state, &app.results);
-    if numbers && app.bench.is_old(tile, state, results) {
+    let mut numbers = app.export.requests().wants(tile) && app.is_complete();
+    let (state, results) = app.compare.shown(&app.shell.state, &app.shell.results);
+    if numbers && app.shell.bench.is_old(tile, state, results) {
         numbers = false;
-        app.export.refuse();
-        app.toasts.error(say::not_written(tile.name));
+        app.export.requests().refuse();
+        app.shell.toasts.error(say::not_written(tile.name));
     }
-    let (state, results) = app.compare.shown(&app.state, &app.results);
+    let (state, results) = app.compare.shown(&app.shell.state, &app.shell.results);
     let seen = TileInput {
         state,
         results,
-        busy: &|lane| app.jobs.busy(lane),
-        done: &|lane| app.jobs.fraction(lane),
+        busy: &|lane| app.shell.jobs.busy(lane),
+        done: &|lane| app.shell.jobs.fraction(lane),
         // The other one is drawn on the scales of the first: equal colours stay equal values.
-        held: app.state.compare.swapped.is_some() || ui.input(|input| input.pointer.any_down()),
+        held: app.shell.state.compare.swapped.is_some() || ui.input(|input| input.pointer.any_down()),
         numbers,
         scale: None,
     };
     let builder = UiBuilder::new().max_rect(rect.shrink(2.0)).id_salt(tile.title);
-    let numbers = ui.scope_builder(builder, |ui| app.bench.show(ui, tile, &seen, commands)).inner;
+    let numbers = ui.scope_builder(builder, |ui| app.shell.bench.show(ui, tile, &seen, commands)).inner;
     if let Some(text) = numbers {
-        app.export.numbers(ui.ctx(), text);
+        app.export.requests().take(ui.ctx(), text);
     }
-    response.drag_started() && app.state.maximised.is_none()
+    response.drag_started() && app.shell.state.maximised.is_none()
 }
 
 /// Draws the menu of a tile.

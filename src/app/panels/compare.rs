@@ -9,8 +9,8 @@ mod places;
 
 use crate::app::command::Command;
 use crate::app::compare::{Act, Look};
+use crate::app::display::theme;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::app::tiles;
 use crate::app::window::App;
 use crate::study::comparison::label;
@@ -123,10 +123,10 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
     let builder = UiBuilder::new().max_rect(whole.shrink2(vec2(8.0, 6.0))).id_salt("comparison");
     ui.scope_builder(builder, |ui| {
         ui.horizontal_wrapped(|ui| choices(ui, app, commands));
-        match app.state.compare.look {
-            Look::Beside => beside::show(ui, &app.state, &mut app.compare, commands),
-            Look::Difference => difference::show(ui, &app.state, &mut app.compare),
-            Look::Curves => curves::show(ui, &app.state, &mut app.compare),
+        match app.shell.state.compare.look {
+            Look::Beside => beside::show(ui, &app.shell.state, &mut app.compare, commands),
+            Look::Difference => difference::show(ui, &app.shell.state, &mut app.compare),
+            Look::Curves => curves::show(ui, &app.shell.state, &mut app.compare),
             Look::Figures => figures::show(ui, app, commands),
         }
     });
@@ -135,7 +135,7 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
 /// Draws the choices of the kind of comparison (tiles side by side, curves, difference, figures) and of the tile that
 /// is compared.
 fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let view = &app.state.compare;
+    let view = &app.shell.state.compare;
     let mut act = |act: Act| commands.push(Command::Compare(act));
     for look in Look::ALL {
         if ui.selectable_label(view.look == look, look.words()).on_hover_text(look.tip()).clicked() {

@@ -1,11 +1,11 @@
 //! The side panel of an export: its content, format, preview, and target folder and name.
 
 use crate::app::command::Command;
-use crate::app::export_choices::{Choices, MOST_FILES, Preview, ReportKind, What};
-use crate::app::jobs::Lane;
+use crate::app::display::theme;
+use crate::app::export::choices::{Choices, MOST_FILES, Preview, ReportKind, What};
+use crate::app::shell::jobs::Lane;
+use crate::app::shell::typed_path::typed_path;
 use crate::app::state::PathUse;
-use crate::app::theme;
-use crate::app::typed_path::typed_path;
 use crate::app::window::App;
 use crate::formats::LuminaireFormat;
 use crate::report::size::Unit;
@@ -20,7 +20,7 @@ const ROWS: usize = 5;
 
 /// Draws the side panel of an export.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let before = app.state.settings.export.clone();
+    let before = app.shell.state.settings.export.clone();
     let mut choices = before.clone();
     let name = ui.label(texts::WHAT);
     let combo = ComboBox::from_id_salt("what").width(ui.available_width().min(240.0));
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     combo.response.labelled_by(name.id);
     ui.add(Label::new(RichText::new(choices.what.words()[1]).weak()).wrap());
     ui.add_space(4.0);
-    options(ui, &mut choices, app.state.document.scene.compare.len());
+    options(ui, &mut choices, app.shell.state.document.scene.compare.len());
     ui.add_space(6.0);
     target(ui, app, commands);
     ui.separator();
@@ -190,7 +190,7 @@ fn series(ui: &mut Ui, choices: &mut Choices) {
 
 /// Draws the fields of folder and file name, and the buttons that write or copy.
 fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let state = &app.state;
+    let state = &app.shell.state;
     let mut text = state.path.clone();
     let name = ui.label(texts::WRITE_TO);
     // On as many lines as the name needs: its end, which says what it is, stays visible.
@@ -220,7 +220,7 @@ fn target(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         return;
     }
-    if let Some(job) = app.jobs.state(Lane::Export).filter(|_| app.writing) {
+    if let Some(job) = app.shell.jobs.state(Lane::Export).filter(|_| app.export.is_writing()) {
         ui.horizontal(|ui| {
             if ui.button(texts::STOP).on_hover_text(texts::STOP_TIP).clicked() {
                 commands.push(Command::Cancel(Lane::Export));
@@ -256,15 +256,15 @@ fn bytes(count: usize) -> String {
 
 /// Draws the preview of the export: picture, beginning of the text, or list of files.
 fn preview(ui: &mut Ui, app: &App) {
-    let export = &app.state.export;
-    let busy = app.jobs.busy(Lane::Preview);
+    let export = &app.export;
+    let busy = app.shell.jobs.busy(Lane::Preview);
     ui.horizontal(|ui| {
         ui.strong(texts::PREVIEW.get());
         if busy {
             ui.spinner();
         }
     });
-    match &export.shown {
+    match export.preview() {
         None if busy => {}
         None => {
             ui.weak(texts::NOT_YET.get());
@@ -276,12 +276,12 @@ fn preview(ui: &mut Ui, app: &App) {
             ui.weak(note);
             let id = ui.scope_id().with("picture");
             let known: Option<(u64, egui::TextureHandle)> = ui.data(|data| data.get_temp(id));
-            let texture = match known.filter(|(revision, _)| *revision == export.revision) {
+            let texture = match known.filter(|(revision, _)| *revision == export.revision()) {
                 Some((_, texture)) => texture,
                 None => {
                     let image = egui::ColorImage::from_rgb([*width, *height], pixels);
                     let texture = ui.ctx().load_texture("preview", image, TextureOptions::LINEAR);
-                    ui.data_mut(|data| data.insert_temp(id, (export.revision, texture.clone())));
+                    ui.data_mut(|data| data.insert_temp(id, (export.revision(), texture.clone())));
                     texture
                 }
             };

@@ -1,10 +1,10 @@
 //! Input fields and buttons shared by the panels. Invalid input is reported under its field and changes nothing.
 
 use crate::app::command::Command;
+use crate::app::display::theme;
 use crate::app::offer::{Offer, key_words};
+use crate::app::shell::typing::read_number;
 use crate::app::state::State;
-use crate::app::theme;
-use crate::app::typing::read_number;
 use crate::texts::{decimal, fixed, shell};
 use egui::accesskit::Role;
 use egui::text::{CCursor, CCursorRange, LayoutJob, TextWrapping};

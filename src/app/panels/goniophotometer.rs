@@ -2,14 +2,14 @@
 //! the simulated measurement, its result.
 
 use crate::app::command::{Command, SYSTEM_EDITOR};
-use crate::app::examples::EXAMPLES;
-use crate::app::facing::sun_incident;
-use crate::app::goniophotometer::{Bench, Emergence, Incidence, Run};
-use crate::app::jobs::Lane;
+use crate::app::display::theme;
+use crate::app::goniophotometer::EXAMPLES;
+use crate::app::goniophotometer::{Emergence, Goniophotometer, Incidence, Run};
 use crate::app::offer;
+use crate::app::scene::facing::sun_incident;
+use crate::app::shell::jobs::Lane;
+use crate::app::shell::typing::read_number;
 use crate::app::state::State;
-use crate::app::theme;
-use crate::app::typing::read_number;
 use crate::app::views::section;
 use crate::study::control::slat_angle;
 use crate::texts::{decimal, fixed, goniophotometer as texts};
@@ -24,25 +24,25 @@ const REST: f32 = 250.0;
 /// nothing is running.
 pub(super) fn show(
     ui: &mut Ui,
+    bench: &Goniophotometer,
     state: &State,
     view: &mut section::State,
     running: Option<f32>,
     commands: &mut Vec<Command>,
 ) {
-    let bench = &state.goniophotometer;
     examples(ui, commands);
     let height = (ui.ctx().content_rect().height() - REST - 150.0).max(LEAST_HEIGHT);
     ui.columns(2, |columns| {
         editor(&mut columns[0], bench, height, commands);
-        drawing(&mut columns[1], state, view, height, commands);
+        drawing(&mut columns[1], (bench, state), view, height, commands);
     });
     ui.separator();
     setup(ui, bench, running.is_some(), commands);
     measure(ui, bench, running, commands);
-    if let Some(error) = &bench.failure {
+    if let Some(error) = bench.failure() {
         ui.add(Label::new(egui::RichText::new(error).color(theme::palette(ui).error)).wrap());
     }
-    match &bench.run {
+    match bench.run() {
         Some(run) => results(ui, bench, run, commands),
         None => {
             ui.weak(texts::OFFER);
@@ -68,9 +68,9 @@ fn examples(ui: &mut Ui, commands: &mut Vec<Command>) {
 
 /// Draws the text editor for the description of the system, of a height \[points\], and under it the error of the text
 /// or a summary of the system.
-fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) {
+fn editor(ui: &mut Ui, bench: &Goniophotometer, height: f32, commands: &mut Vec<Command>) {
     let name = ui.label(texts::GEOMETRY);
-    let mut text = bench.text.clone();
+    let mut text = bench.text().to_owned();
     ScrollArea::both().id_salt("editor").max_height(height).min_scrolled_height(height).show(ui, |ui| {
         let rows = (height / ui.text_style_height(&TextStyle::Monospace)) as usize;
         let field = TextEdit::multiline(&mut text)
@@ -81,11 +81,11 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
             .desired_width(f32::INFINITY);
         ui.add(field).labelled_by(name.id);
     });
-    if text != bench.text {
+    if text != bench.text() {
         commands.push(Command::EditSystem(text));
     }
     let palette = theme::palette(ui);
-    match &bench.described {
+    match bench.described() {
         Some(Err(error)) => {
             ui.add(Label::new(egui::RichText::new(error.to_string()).color(palette.error)).wrap());
         }
@@ -104,8 +104,13 @@ fn editor(ui: &mut Ui, bench: &Bench, height: f32, commands: &mut Vec<Command>) 
 }
 
 /// Draws the section through the described system, of a height \[points\], and the choice of the state drawn.
-fn drawing(ui: &mut Ui, state: &State, view: &mut section::State, height: f32, commands: &mut Vec<Command>) {
-    let bench = &state.goniophotometer;
+fn drawing(
+    ui: &mut Ui,
+    (bench, state): (&Goniophotometer, &State),
+    view: &mut section::State,
+    height: f32,
+    commands: &mut Vec<Command>,
+) {
     let system = bench.valid().map(|described| &described.file.system);
     let states = bench.states();
     let label =
@@ -114,15 +119,15 @@ fn drawing(ui: &mut Ui, state: &State, view: &mut section::State, height: f32, c
     let upright = system.is_some_and(|system| system.upright);
     let input = section::Input {
         system,
-        revision: bench.revision,
-        state: bench.drawn,
+        revision: bench.revision(),
+        state: bench.drawn(),
         sun: sun.map(|sun| slat_angle(sun.0, upright)),
     };
     let size = vec2(ui.available_width(), height);
     section::show(ui, &input, size, view);
-    if let Some(state) = states.get(bench.drawn).filter(|_| states.len() > 1) {
+    if let Some(state) = states.get(bench.drawn()).filter(|_| states.len() > 1) {
         ui.horizontal(|ui| {
-            let mut drawn = bench.drawn;
+            let mut drawn = bench.drawn();
             let back = ui.add_enabled(drawn > 0, Button::new("◀")).accessible_name(texts::PREVIOUS_STATE);
             if back.on_hover_text(texts::PREVIOUS_STATE).clicked() {
                 drawn -= 1;
@@ -134,7 +139,7 @@ fn drawing(ui: &mut Ui, state: &State, view: &mut section::State, height: f32, c
                 drawn += 1;
             }
             ui.label(format!("{state}°"));
-            if drawn != bench.drawn {
+            if drawn != bench.drawn() {
                 commands.push(Command::DrawState(drawn));
             }
         });
@@ -143,8 +148,8 @@ fn drawing(ui: &mut Ui, state: &State, view: &mut section::State, height: f32, c
 
 /// Draws the settings of the measurement (incident directions, emergent cells, maximum error); they cannot be changed
 /// while it is running.
-fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>) {
-    let mut setup = bench.setup;
+fn setup(ui: &mut Ui, bench: &Goniophotometer, running: bool, commands: &mut Vec<Command>) {
+    let mut setup = bench.setup();
     ui.horizontal_wrapped(|ui| {
         ui.add_enabled_ui(!running, |ui| {
             let label = ui.label(texts::INCIDENT);
@@ -173,21 +178,21 @@ fn setup(ui: &mut Ui, bench: &Bench, running: bool, commands: &mut Vec<Command>)
             ui.add(field).labelled_by(label.id).on_hover_text(texts::ERROR_TIP);
         });
     });
-    if setup != bench.setup {
+    if setup != bench.setup() {
         commands.push(Command::SystemSetup(setup));
     }
 }
 
 /// Draws the button that starts or stops the measurement. `running`: progress of the current state, 0 … 1; `None` if no
 /// measurement is running.
-fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<Command>) {
+fn measure(ui: &mut Ui, bench: &Goniophotometer, running: Option<f32>, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         if let Some(fraction) = running {
             if ui.button(texts::STOP).on_hover_text(texts::STOP_TIP).clicked() {
                 commands.push(Command::Cancel(Lane::Goniophotometer));
             }
-            let finished = bench.run.as_ref().map_or(0, |run| run.finished.len());
-            let states = bench.run.as_ref().and_then(|run| run.states.as_ref()).map_or(0, Vec::len);
+            let finished = bench.run().map_or(0, |run| run.finished.len());
+            let states = bench.run().and_then(|run| run.states.as_ref()).map_or(0, Vec::len);
             let text = if states > 1 { texts::state_of(finished + 1, states) } else { String::new() };
             let share = if states > 0 { (finished as f32 + fraction) / states as f32 } else { fraction };
             ui.add(ProgressBar::new(share).desired_width(200.0).show_percentage());
@@ -202,7 +207,7 @@ fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<
         if button.on_hover_text(texts::COMPUTE_TIP).clicked() {
             commands.push(compute);
         }
-        if let Some(run) = bench.run.as_ref().filter(|run| bench.is_current(run) && !run.complete()) {
+        if let Some(run) = bench.run().filter(|run| bench.is_current(run) && !run.complete()) {
             ui.weak(texts::stopped_after(run.finished.len()));
         }
     });
@@ -210,7 +215,7 @@ fn measure(ui: &mut Ui, bench: &Bench, running: Option<f32>, commands: &mut Vec<
 
 /// Draws a table of the measured states (transmittance, quality figures, computing time), and the buttons that add them
 /// to the catalogue or export them.
-fn results(ui: &mut Ui, bench: &Bench, run: &Run, commands: &mut Vec<Command>) {
+fn results(ui: &mut Ui, bench: &Goniophotometer, run: &Run, commands: &mut Vec<Command>) {
     if run.finished.is_empty() {
         return;
     }

@@ -6,9 +6,7 @@ mod findings;
 mod table;
 
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed, number};
-use crate::app::import_steps::Step;
-use crate::app::state::State;
+use crate::app::import::{Import, Imports, Proposed, Step, number};
 use crate::catalogue::Grouping;
 use crate::texts::import as text;
 use egui::{ScrollArea, Ui};
@@ -19,11 +17,11 @@ pub(super) use findings::of_selection;
 const NARROW: f32 = 620.0;
 
 /// Draws the side panel of an import.
-pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    actions(ui, state, commands);
-    let Some(import) = &state.import else {
+pub(super) fn show(ui: &mut Ui, imports: &Imports, commands: &mut Vec<Command>) {
+    actions(ui, imports, commands);
+    let Some(import) = imports.open() else {
         ui.label(text::DROP_HERE);
-        return drafts(ui, state, commands);
+        return drafts(ui, imports, commands);
     };
     if import.products.is_empty() {
         ui.add_space(6.0);
@@ -47,13 +45,13 @@ pub(super) fn show(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
             ui.separator();
             detail::show(ui, import, commands);
         }
-        drafts(ui, state, commands);
+        drafts(ui, imports, commands);
     });
 }
 
 /// Draws the buttons for the import as a whole: add to the catalogue, save as draft, discard, accept all proposals.
-fn actions(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(import) = &state.import else { return };
+fn actions(ui: &mut Ui, imports: &Imports, commands: &mut Vec<Command>) {
+    let Some(import) = imports.open() else { return };
     let ready = import.products.iter().filter(|product| product.ready()).count();
     let wrong = import.wanted().any(|product| product.problem().is_some());
     let questions = import.questions();
@@ -159,13 +157,13 @@ fn by_hand(ui: &mut Ui, import: &Import, commands: &mut Vec<Command>) {
 }
 
 /// Draws the list of drafts of earlier imports.
-fn drafts(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    if state.drafts.is_empty() {
+fn drafts(ui: &mut Ui, imports: &Imports, commands: &mut Vec<Command>) {
+    if imports.drafts().is_empty() {
         return;
     }
     ui.add_space(8.0);
-    ui.strong(number(state.drafts.len(), text::ONE_DRAFT, text::drafts));
-    for (place, draft) in state.drafts.iter().enumerate() {
+    ui.strong(number(imports.drafts().len(), text::ONE_DRAFT, text::drafts));
+    for (place, draft) in imports.drafts().iter().enumerate() {
         ui.push_id(("draft", place), |ui| {
             ui.horizontal_wrapped(|ui| {
                 for (words, command) in

@@ -1,8 +1,8 @@
 //! Messages of the window: above the status line for the time it takes to read them, and in a list for later.
 
 use crate::app::command::Command;
-use crate::app::messages::{Message, Messages, Weight};
-use crate::app::theme::{self, Palette};
+use crate::app::display::theme::{self, Palette};
+use crate::app::shell::messages::{Message, Messages, Weight};
 use crate::texts::shell;
 use egui::{Align2, Area, Color32, Id, Label, Order, Pos2, RichText, Sense, Ui};
 use std::time::Duration;

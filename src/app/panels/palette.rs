@@ -1,7 +1,7 @@
 //! The command palette: typed words narrow the list, arrow keys choose a row, Enter executes it.
 
 use crate::app::command::Command;
-use crate::app::palette::{Row, rows};
+use crate::app::palette::Row;
 use crate::app::window::App;
 use crate::texts::shell;
 use egui::{Align2, Area, Button, Id, Key, Modifiers, Order, Ui};
@@ -11,7 +11,7 @@ const WIDTH: f32 = 420.0;
 
 /// Draws the command palette if it is open.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let Some(words) = &app.state.palette else { return };
+    let Some(words) = &app.shell.state.palette else { return };
     let mut text = words.clone();
     let area = Area::new(Id::unique("palette")).order(Order::Foreground).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
     let inner = area.show(ui.ctx(), |ui| {
@@ -50,12 +50,12 @@ fn list(ui: &mut Ui, app: &App, text: &mut String, commands: &mut Vec<Command>) 
         field.request_focus();
     }
     // Typed in this frame and entered in it: what the words fit now counts.
-    let list = rows(&app.state, text);
+    let list = app.palette.rows(&app.shell.state, text);
     let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
     let changed = field.changed();
-    let row = if changed { 0 } else { app.state.palette_row.saturating_add_signed(step) };
+    let row = if changed { 0 } else { app.palette.row().saturating_add_signed(step) };
     let row = row.min(list.len().saturating_sub(1));
-    if row != app.state.palette_row && !changed {
+    if row != app.palette.row() && !changed {
         commands.push(Command::PaletteRow(row));
     }
     if list.is_empty() {

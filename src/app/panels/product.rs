@@ -1,11 +1,12 @@
 //! Side panels about stored products: editing of their texts and states, and the list of deleted products.
 
-use crate::app::changes::Editing;
-use crate::app::clock;
+use crate::app::catalogue::Editing;
 use crate::app::command::Command;
+use crate::app::display::theme;
 use crate::app::import::ImportFields;
-use crate::app::state::{Sheet, State};
-use crate::app::theme;
+use crate::app::shell::clock;
+use crate::app::state::Sheet;
+use crate::catalogue::Deleted;
 use crate::texts::catalogue as text;
 use egui::{TextEdit, Ui};
 
@@ -34,8 +35,8 @@ pub(super) fn words(ui: &mut Ui, fields: &ImportFields, author: bool) -> Option<
 }
 
 /// Draws the side panel in which a product is edited.
-pub(super) fn edit(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
-    let Some(editing) = &state.editing else {
+pub(super) fn edit(ui: &mut Ui, editing: Option<&Editing>, commands: &mut Vec<Command>) {
+    let Some(editing) = editing else {
         ui.label(text::NONE_SELECTED);
         return;
     };
@@ -151,13 +152,13 @@ fn history(ui: &mut Ui, editing: &Editing) {
 }
 
 /// Draws the list of deleted products, which can be restored.
-pub(super) fn deleted(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+pub(super) fn deleted(ui: &mut Ui, list: &[Deleted], commands: &mut Vec<Command>) {
     ui.add(egui::Label::new(text::DELETED_HELP).wrap());
-    if state.deleted.is_empty() {
+    if list.is_empty() {
         ui.label(text::NONE_DELETED);
     }
     let palette = theme::palette(ui);
-    for one in &state.deleted {
+    for one in list {
         ui.add_space(6.0);
         ui.label(&one.name);
         ui.horizontal(|ui| {

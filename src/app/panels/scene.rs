@@ -14,10 +14,10 @@ pub use weather::Weather;
 
 use super::fields::number;
 use crate::app::command::Command;
-use crate::app::moment;
-use crate::app::outside::ObstructionEffects;
+use crate::app::display::theme;
+use crate::app::scene::moment;
+use crate::app::scene::outside::ObstructionEffects;
 use crate::app::state::{Shown, State};
-use crate::app::theme;
 use crate::app::title;
 use crate::study::scene_file::{SceneFile, SkyModelKey};
 use crate::texts::{Text, fixed, scene as texts, year as year_texts};

@@ -1,8 +1,8 @@
 //! Side panels about sets of products: collections made by the user, and subscribed folders of packages.
 
-use crate::app::catalogue_command::CatalogueCommand;
+use crate::app::catalogue::CatalogueCommand;
+use crate::app::catalogue::shelf::Query;
 use crate::app::command::Command;
-use crate::app::shelf::Query;
 use crate::app::state::State;
 use crate::app::title;
 use crate::texts::{Text, catalogue as text};
@@ -18,8 +18,8 @@ fn button(ui: &mut Ui, what: Text, tip: Text, name: &str) -> bool {
     button.clicked()
 }
 
-/// Draws the side panel of collections.
-pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command>) {
+/// Draws the side panel of collections. `typed`: name of a new one, as typed.
+pub(super) fn collections(ui: &mut Ui, state: &State, typed: &str, commands: &mut Vec<Command>) {
     let all = &state.sets.collections;
     let product = &state.document.selection.product;
     if product.is_empty() {
@@ -27,7 +27,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
     } else {
         ui.add(Label::new(egui::RichText::new(title::product(state)).strong()).wrap());
         ui.horizontal(|ui| {
-            let mut name = state.collection.clone();
+            let mut name = typed.to_owned();
             let label = ui.label(text::NEW_COLLECTION);
             let field = ui.add(TextEdit::singleline(&mut name).desired_width(140.0)).labelled_by(label.id);
             let entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
@@ -35,7 +35,7 @@ pub(super) fn collections(ui: &mut Ui, state: &State, commands: &mut Vec<Command
             let add = ui.add_enabled(named, egui::Button::new(text::ADD)).on_hover_text(text::ADD_TIP).clicked();
             if (add || entered) && named {
                 commands.push(Command::Catalogue(CatalogueCommand::Collect { name, product: None, put: true }));
-            } else if name != state.collection {
+            } else if name != typed {
                 commands.push(Command::Catalogue(CatalogueCommand::EditName(name)));
             }
         });

@@ -4,11 +4,11 @@
 use super::fields::take_keyboard;
 use super::{about, import, messages, product, sets};
 use crate::app::command::Command;
-use crate::app::jobs::Lane;
+use crate::app::display::theme;
 use crate::app::offer::{key_words, listed};
+use crate::app::shell::jobs::Lane;
+use crate::app::shell::typed_path::typed_path;
 use crate::app::state::{CatalogueState, PathUse, Results, Sheet, State};
-use crate::app::theme;
-use crate::app::typed_path::typed_path;
 use crate::app::views::accuracy;
 use crate::app::window::App;
 use crate::texts::{catalogue as texts, shell};
@@ -35,7 +35,8 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         ui.heading(title);
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let before = app.opened.sheet_before(ui.ctx().cumulative_frame_nr());
-            let escaped = before && app.state.palette.is_none() && ui.input(|input| input.key_pressed(Key::Escape));
+            let escaped =
+                before && app.shell.state.palette.is_none() && ui.input(|input| input.key_pressed(Key::Escape));
             if ui.button(shell::CLOSE).on_hover_text(shell::CLOSE_TIP).clicked() || escaped {
                 commands.push(Command::Sheet(None));
             }
@@ -43,17 +44,17 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
     });
     if sheet == Sheet::Import {
         // Its table scrolls by itself.
-        return import::show(ui, &app.state, commands);
+        return import::show(ui, &app.imports, commands);
     }
     ScrollArea::vertical().id_salt(title.english()).auto_shrink([false, false]).show(ui, |ui| match sheet {
         Sheet::Import => {}
-        Sheet::Findings => match app.state.dataset.value.as_ref() {
+        Sheet::Findings => match app.shell.state.dataset.value.as_ref() {
             Some(dataset) => {
-                ui.strong(crate::app::title::selection(&app.state));
-                import::of_selection(ui, &app.state, dataset);
+                ui.strong(crate::app::title::selection(&app.shell.state));
+                import::of_selection(ui, &app.shell.state, dataset);
             }
             None => {
-                let words = match &app.state.catalogue {
+                let words = match &app.shell.state.catalogue {
                     CatalogueState::Opening => shell::OPENING_THE_CATALOGUE.get(),
                     CatalogueState::Failed(error) => error.as_str(),
                     CatalogueState::Ready(_) => shell::NO_PRODUCT_CHOSEN.get(),
@@ -64,20 +65,27 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
         Sheet::Keys => keys(ui),
         Sheet::About => about::show(ui, app, commands),
         Sheet::Accuracy => {
-            let running = app.jobs.progress(Lane::Accuracy);
-            ladder(ui, &app.results, &mut app.accuracy_view, running, commands);
+            let running = app.shell.jobs.progress(Lane::Accuracy);
+            ladder(ui, &app.shell.results, &mut app.accuracy_view, running, commands);
         }
         Sheet::Goniophotometer => {
-            let running = app.jobs.progress(Lane::Goniophotometer);
-            super::goniophotometer::show(ui, &app.state, &mut app.section_view, running, commands);
+            let running = app.shell.jobs.progress(Lane::Goniophotometer);
+            super::goniophotometer::show(
+                ui,
+                &app.goniophotometer,
+                &app.shell.state,
+                &mut app.section_view,
+                running,
+                commands,
+            );
         }
-        Sheet::Product => product::edit(ui, &app.state, commands),
-        Sheet::Deleted => product::deleted(ui, &app.state, commands),
-        Sheet::Collections => sets::collections(ui, &app.state, commands),
-        Sheet::Subscriptions => sets::subscriptions(ui, &app.state, commands),
-        Sheet::Messages => messages::list(ui, &app.toasts, commands),
+        Sheet::Product => product::edit(ui, app.products.editing(), commands),
+        Sheet::Deleted => product::deleted(ui, app.products.deleted(), commands),
+        Sheet::Collections => sets::collections(ui, &app.shell.state, app.products.collection(), commands),
+        Sheet::Subscriptions => sets::subscriptions(ui, &app.shell.state, commands),
+        Sheet::Messages => messages::list(ui, &app.shell.toasts, commands),
         Sheet::Export => super::export::show(ui, app, commands),
-        Sheet::Path(what) => path(ui, &app.state, what, commands),
+        Sheet::Path(what) => path(ui, &app.shell.state, what, commands),
     });
 }
 

@@ -1,9 +1,9 @@
 //! The status line: running jobs, statistical error of the results shown, findings on the dataset.
 
 use crate::app::command::Command;
-use crate::app::jobs::Lane;
+use crate::app::display::theme;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::{CatalogueState, Sheet};
-use crate::app::theme;
 use crate::app::views::room::error_words;
 use crate::app::window::App;
 use crate::compute::btdf::Severity;
@@ -29,7 +29,7 @@ struct Figure {
 /// Returns the note on an outdated result, which says whether a newer one is being computed in its lane; empty for a
 /// current result.
 fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'static str {
-    match (shown.stale, app.jobs.busy(lane)) {
+    match (shown.stale, app.shell.jobs.busy(lane)) {
         (false, _) => "",
         (true, true) => shell::UPDATING.get(),
         (true, false) => shell::EARLIER_SCENE.get(),
@@ -39,9 +39,9 @@ fn age<T>(app: &App, shown: &crate::app::state::Shown<T>, lane: Lane) -> &'stati
 /// Returns texts on the errors of the room's illuminances and of the LID, if a visible tile shows these results.
 fn figures(app: &App) -> Vec<Figure> {
     let mut list = Vec::new();
-    let is_visible = |lane| app.bench.shows(lane, app.state.maximised);
-    if let Some(room) = app.results.room.value.as_ref().filter(|_| is_visible(Lane::Room)) {
-        let age = age(app, &app.results.room, Lane::Room);
+    let is_visible = |lane| app.shell.bench.shows(lane, app.shell.state.maximised);
+    if let Some(room) = app.shell.results.room.value.as_ref().filter(|_| is_visible(Lane::Room)) {
+        let age = age(app, &app.shell.results.room, Lane::Room);
         let error = error_words(room.totals());
         list.push(Figure {
             words: [
@@ -51,9 +51,9 @@ fn figures(app: &App) -> Vec<Figure> {
             tip: shell::ROOM_LINE_TIP,
         });
     }
-    if let Some(lid) = app.results.lid.value.as_ref().filter(|_| is_visible(Lane::Lid)) {
+    if let Some(lid) = app.shell.results.lid.value.as_ref().filter(|_| is_visible(Lane::Lid)) {
         let relative = if lid.flux.value > 0.0 { 100.0 * lid.flux.error / lid.flux.value } else { 0.0 };
-        let age = age(app, &app.results.lid, Lane::Lid);
+        let age = age(app, &app.shell.results.lid, Lane::Lid);
         let error = percent(relative);
         list.push(Figure {
             words: [shell::lid_line(&error, format!(", {}{age}", duration(lid.seconds))), shell::lid_line(&error, age)],
@@ -67,16 +67,16 @@ fn figures(app: &App) -> Vec<Figure> {
 /// that of the import, since it takes too long to be repeated in every frame.
 fn checks(app: &App, palette: &theme::Palette) -> (String, Color32, bool) {
     // While data of another product or state are still to come, those that are shown are the last ones'.
-    let awaited = app.state.computing.is_some() || app.state.dataset.error.is_some();
-    let Some(dataset) = app.state.dataset.value.as_ref().filter(|_| !awaited) else {
-        let words = match (&app.state.catalogue, app.busy()) {
+    let awaited = app.shell.state.computing.is_some() || app.shell.state.dataset.error.is_some();
+    let Some(dataset) = app.shell.state.dataset.value.as_ref().filter(|_| !awaited) else {
+        let words = match (&app.shell.state.catalogue, app.busy()) {
             (CatalogueState::Opening, _) => shell::OPENING_CATALOGUE,
             (_, true) => shell::NO_DATASET_YET,
             (_, false) => shell::NO_DATASET,
         };
         return (words.into(), palette.weak, false);
     };
-    let product = app.state.product.as_ref().map_or(&[][..], |product| &product.findings);
+    let product = app.shell.state.product.as_ref().map_or(&[][..], |product| &product.findings);
     let findings = product.iter().filter(|finding| finding.state == dataset.state);
     let count = |severity| findings.clone().filter(|finding| finding.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
@@ -113,8 +113,8 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         } else if ui.button(words).on_hover_text(shell::CHECKS_TIP).clicked() {
             commands.push(Command::Sheet(Some(Sheet::Findings)));
         }
-        if !app.toasts.is_empty() {
-            let text = match app.toasts.len() {
+        if !app.shell.toasts.is_empty() {
+            let text = match app.shell.toasts.len() {
                 1 => shell::ONE_MESSAGE.into(),
                 count => shell::messages(count),
             };
@@ -136,7 +136,7 @@ fn rest(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     let mut left = ui.available_width() - GAP;
     let figures = figures(app);
     let all = |k: usize| figures.iter().map(|figure| width(ui, &figure.words[k]) + GAP).sum::<f32>();
-    let mut jobs = app.jobs.views();
+    let mut jobs = app.shell.jobs.views();
     // The job that the others wait for is shown first.
     jobs.sort_by_key(|job| job.lane != Lane::Product);
     // Durations are left out first, where something else wants the room.

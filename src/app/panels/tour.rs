@@ -2,8 +2,8 @@
 //! the window that the step uses. It covers nothing.
 
 use crate::app::command::Command;
-use crate::app::state::{State, Tile};
-use crate::app::theme;
+use crate::app::display::theme;
+use crate::app::state::Tile;
 use crate::app::tiles::{LID, ROOM, SKY};
 use crate::app::tour::{Stop, TourAct};
 use crate::app::window::App;
@@ -20,14 +20,9 @@ pub struct Places {
     pub menus: Vec<(Text, Rect)>,
 }
 
-/// Whether the tour or the offer of the tour is shown.
-pub const fn speaks(state: &State) -> bool {
-    state.tour.is_some() || state.tour_offered
-}
-
 /// Draws the line of the tour, or of its offer.
 pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let Some(tour) = &app.state.tour else {
+    let Some(stop) = app.tour.stop() else {
         ui.horizontal_wrapped(|ui| {
             ui.weak(shell::TOUR_OFFER);
             if ui.button(shell::TOUR_START).clicked() {
@@ -39,18 +34,18 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         return;
     };
-    let number = Stop::ALL.iter().position(|stop| *stop == tour.stop).unwrap_or(0) + 1;
+    let number = Stop::ALL.iter().position(|one| *one == stop).unwrap_or(0) + 1;
     ui.horizontal_wrapped(|ui| {
         ui.strong(shell::tour_step(number, Stop::ALL.len()));
-        ui.label(tour.stop.words());
+        ui.label(stop.words());
         if ui.button(shell::TOUR_LEAVE).on_hover_text(shell::TOUR_LEAVE_TIP).clicked() {
             commands.push(Command::Tour(TourAct::Leave));
         }
     });
     // What lies over the window takes the key first, and what is typed into.
     let free = !app.in_field
-        && app.state.sheet.is_none()
-        && app.state.palette.is_none()
+        && app.shell.state.sheet.is_none()
+        && app.shell.state.palette.is_none()
         && !egui::Popup::is_any_open(ui.ctx());
     if free && ui.input(|input| input.key_pressed(Key::Escape)) {
         commands.push(Command::Tour(TourAct::Leave));
@@ -59,14 +54,14 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
 
 /// Returns the rectangle of a tile; `None` if it is not visible.
 fn place_of(app: &App, tile: Tile) -> Option<Rect> {
-    app.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
+    app.shell.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
 }
 
 /// Draws the frame round the part of the window that the current step uses, in front of everything else.
 pub fn ring(ui: &Ui, app: &App, places: &Places) {
-    let Some(tour) = &app.state.tour else { return };
+    let Some(stop) = app.tour.stop() else { return };
     let menu = |menu: Text| places.menus.iter().find(|(one, _)| *one == menu).map(|(_, rect)| *rect);
-    let list: Vec<Rect> = match tour.stop {
+    let list: Vec<Rect> = match stop {
         Stop::Product => places.catalogue.into_iter().collect(),
         Stop::Sun => place_of(app, SKY).into_iter().collect(),
         Stop::Light => [LID, ROOM].into_iter().filter_map(|tile| place_of(app, tile)).collect(),

@@ -2,11 +2,11 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::data_looks::FormKey;
-use crate::app::facing::sun_incident;
-use crate::app::incidence::Incidence;
-use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
+use crate::app::results::data_looks::FormKey;
+use crate::app::scene::facing::sun_incident;
+use crate::app::scene::incidence::Incidence;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::title;
 use crate::app::views::btdf::{self, FormInput, SchemesInput};

@@ -1,11 +1,11 @@
 //! The ranking tile: annual figures of products in this room, ranked on request.
 
 use super::drawn::{Drawn, TileInput};
-use crate::app::choose::{ChooseAct, Figures, objectives_of};
 use crate::app::command::Command;
 use crate::app::compare::Act;
-use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
+use crate::app::rank::{ChooseAct, Figures, objectives_of};
+use crate::app::shell::jobs::Lane;
 use crate::app::state::{State, Tile};
 use crate::app::title;
 use crate::app::views::{Cache, choose as view};

@@ -2,13 +2,14 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::control as rules;
-use crate::app::facing::sun_incident;
-use crate::app::jobs::Lane;
+use crate::app::scene::control as rules;
+use crate::app::scene::facing::sun_incident;
+use crate::app::scene::moment;
+use crate::app::shell::jobs::Lane;
+use crate::app::shell::typing::read_number;
 use crate::app::state::{State, Tile};
-use crate::app::typing::read_number;
+use crate::app::title;
 use crate::app::views::{Cache, control};
-use crate::app::{moment, title};
 use crate::study::control::device::is_upright;
 use crate::study::control::{DEFAULT_ELEVATION, slat_angle};
 use crate::study::scene_file::{ControlKeys, ControlMode};

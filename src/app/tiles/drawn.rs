@@ -1,8 +1,8 @@
 //! Interface of a tile to the tile area: a tile is drawn from state and results of the window, and returns commands.
 
 use crate::app::command::Command;
-use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::{CatalogueState, Results, Shown, State};
 use crate::app::title;
 use crate::texts::tiles as say;

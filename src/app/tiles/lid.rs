@@ -2,7 +2,7 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::jobs::Lane;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::views::lid;
 use crate::texts::tiles as say;

@@ -2,6 +2,9 @@
 //! [`crate::app::views`]) and converts the view's actions to commands; a new tile needs such a file and an entry in
 //! [`TILES`]. Shortcuts, menus, command palette, layout and exports use that list.
 
+pub mod arrange;
+pub mod docking;
+
 mod btdf;
 mod choose;
 mod control;
@@ -25,9 +28,9 @@ pub use sky::TILE as SKY;
 pub use year::TILE as YEAR;
 
 use super::command::Command;
-use super::jobs::Lane;
 use super::paint::tile::waiting;
 use super::state::{Results, State, Tile};
+use crate::app::shell::jobs::Lane;
 use egui::{Rect, Ui};
 use egui_tiles::Tree;
 use std::time::{Duration, Instant};
@@ -80,7 +83,7 @@ pub fn all() -> Vec<Tile> {
 /// Returns the arrangement of a first start: six tiles in two rows, with the tiles of year and ranking as tabs behind
 /// the control tile.
 fn first() -> Layout {
-    presets::layout(super::arrange::Preset::All, &all())
+    presets::layout(crate::app::tiles::arrange::Preset::All, &all())
 }
 
 /// Returns the tiles that can be drawn for the candidates of a comparison: all except those of year and ranking, which
@@ -181,7 +184,7 @@ impl Bench {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::arrange::Preset;
+    use crate::app::tiles::arrange::Preset;
 
     #[test]
     fn every_preset_has_every_tile_once() {

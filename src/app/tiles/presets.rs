@@ -2,8 +2,8 @@
 
 use super::layout::Layout;
 use super::{btdf, choose, control, lid, room, sky, transmittance, year};
-use crate::app::arrange::Preset;
 use crate::app::state::Tile;
+use crate::app::tiles::arrange::Preset;
 
 /// Returns a predefined arrangement of all tiles. `all`: all tiles, in their order.
 pub fn layout(preset: Preset, all: &[Tile]) -> Layout {

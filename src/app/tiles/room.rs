@@ -3,11 +3,11 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::engine::{RoomFigures, part};
-use crate::app::jobs::Lane;
-use crate::app::outside;
 use crate::app::paint::tile::Status;
-use crate::app::room_look::RoomView;
+use crate::app::results::engine::{RoomFigures, part};
+use crate::app::scene::outside;
+use crate::app::scene::room_look::RoomView;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::{Daylight, State, Tile};
 use crate::app::views::{Cache, room};
 use crate::compute::direction::Surface;

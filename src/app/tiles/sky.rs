@@ -2,11 +2,12 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::facing::surface;
-use crate::app::jobs::Lane;
+use crate::app::scene::facing::surface;
+use crate::app::scene::moment;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
+use crate::app::title;
 use crate::app::views::sky;
-use crate::app::{moment, title};
 use crate::compute::angle::Bearing;
 use crate::compute::direction::{Dir, Surface};
 use crate::study::scene_file::SkyModelKey;

@@ -3,13 +3,14 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::facing::{sun_incident, surface};
-use crate::app::incidence::Incidence;
-use crate::app::jobs::Lane;
+use crate::app::scene::facing::{sun_incident, surface};
+use crate::app::scene::incidence::Incidence;
+use crate::app::scene::moment;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
+use crate::app::title;
 use crate::app::views::Cache;
 use crate::app::views::transmittance::{self, FluxSplit};
-use crate::app::{moment, title};
 use crate::compute::direction::{Incident, Surface};
 use crate::study::incoming::{SunPath, flux_split, sun_paths};
 use crate::study::scene_file::SceneFile;

@@ -2,12 +2,13 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::jobs::Lane;
 use crate::app::paint::tile::Status;
+use crate::app::scene::moment;
+use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
+use crate::app::title;
 use crate::app::views::{Cache, year as view};
 use crate::app::year::{YearAct, weather_of_year};
-use crate::app::{moment, title};
 use crate::drawing::hour_map::HourMap;
 use crate::study::weather::warning_words;
 use crate::study::year::{Annual, Day, Look, Row, day, map, months, sunniest, table};

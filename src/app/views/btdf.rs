@@ -13,12 +13,12 @@ pub use form::words as form_words;
 pub use input::{Action, FormInput, Input, SchemesInput};
 
 use super::Cache;
-use crate::app::incidence::Source;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _};
 use crate::app::paint::frozen::{Grain, frozen, grain};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, cell_outline, emergent_disk, incident_disk, neighbour};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::tile::{self, Foot, Words};
+use crate::app::scene::incidence::Source;
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{Btdf, Indicatrix};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};

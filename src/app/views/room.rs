@@ -25,7 +25,7 @@ use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_H
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{LEFT, RIGHT};
 use crate::app::paint::tile::{self, Foot, Words};
-use crate::app::room_look::{RoomLook, RoomView};
+use crate::app::scene::room_look::{RoomLook, RoomView};
 use crate::texts::tiles as say;
 use egui::{Rect, Sense, Ui, pos2, vec2};
 use input::{Frame, Span};
@@ -118,7 +118,7 @@ fn controls(ui: &mut Ui, input: &Input<'_>, (log, look): (&mut bool, &mut RoomLo
     factor.inner.on_hover_text(tip).on_disabled_hover_text(tip);
     if let Some(mut z) = input.plane_z {
         let drag = egui::DragValue::new(&mut z).range(0.0..=input.room[2]).speed(0.01).suffix(" m").max_decimals(2);
-        let drag = drag.custom_parser(|text| crate::app::typing::read_number(text, " m"));
+        let drag = drag.custom_parser(|text| crate::app::shell::typing::read_number(text, " m"));
         let label = ui.label(say::PLANE_AT);
         if ui.add(drag).labelled_by(label.id).changed() {
             actions.push(Action::PlaneMoved(z));

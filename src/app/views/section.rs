@@ -2,8 +2,8 @@
 //! scale bar and a ray of the sun.
 
 use super::Cache;
+use crate::app::display::theme;
 use crate::app::paint::polygon::fill;
-use crate::app::theme;
 use crate::compute::system::{SystemDescription, SystemKind};
 use crate::texts::{Text, decimal, tiles as say};
 use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn three_periods_stand_one_above_the_other() {
-        let text = crate::app::examples::EXAMPLES[0].text;
+        let text = crate::app::goniophotometer::EXAMPLES[0].text;
         let system = crate::formats::system_toml::read(text.as_bytes()).unwrap().system;
         let outlines = stacked(&system, 2);
         assert_eq!(outlines.len(), 3);

@@ -2,12 +2,12 @@
 //! resulting illuminances.
 
 use super::Cache;
-use crate::app::moment::height_words;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::hemisphere::{Disk, on_halo};
 use crate::app::paint::palette::{ColourMap, Palette};
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile::{self, Foot, Status, Words};
+use crate::app::scene::moment::height_words;
 use crate::compute::angle::wrap_two_pi;
 use crate::drawing::hemisphere::{dome_point, side_without};
 use crate::drawing::plot::{Axis, Guide, Plot, Series, Unit};

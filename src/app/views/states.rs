@@ -2,8 +2,8 @@
 //! transmittance) over its name.
 
 use super::Cache;
+use crate::app::display::theme;
 use crate::app::paint::polygon::fill;
-use crate::app::theme;
 use crate::compute::system::SystemDescription;
 use crate::texts::{fixed, tiles as say};
 use egui::{FontId, Painter, Pos2, Rect, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2};

@@ -2,12 +2,12 @@
 //! paths, and the flux split, i.e. the shares of the transmitted flux by zone of emergent directions.
 
 use super::Cache;
-use crate::app::incidence::{Incidence, Source, direction_text};
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::frozen::{Grain, frozen, grain};
 use crate::app::paint::hemisphere::{Disk, Projection, Side, incident_disk, on_halo};
 use crate::app::paint::palette::{ColourMap, ColourMapExt as _, Palette};
 use crate::app::paint::tile::{self, Foot, Status, Words};
+use crate::app::scene::incidence::{Incidence, Source, direction_text};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::Incident;

@@ -161,18 +161,18 @@ fn tiles(harness: &Harness<'_, App>, painted: &Painted) -> Vec<Rect> {
 
 /// Where the bench begins, thus the catalogue ends.
 fn catalogue_edge(harness: &Harness<'_, App>, tiles: &[Rect]) -> f32 {
-    let open = harness.state().state.settings.catalogue_open;
+    let open = harness.state().shell.state.settings.catalogue_open;
     if open { tiles.iter().map(|tile| tile.left()).fold(f32::INFINITY, f32::min) } else { 0.0 }
 }
 
 /// Beginnings of texts that may be cut, since all of them is in a tip: the second titles of tiles, the selection in the
 /// menu bar, and in the narrowest tile the words for a sun behind the façade.
 fn cut_with_a_tip(harness: &Harness<'_, App>) -> Vec<String> {
-    let state = &harness.state().state;
+    let state = &harness.state().shell.state;
     let sun_behind = "the sun is not in front of the façade".to_owned();
     let selection = title::title(state).replace("cfs – ", "");
     // Names in the rows of a ranking, with their marks, and why others are left out.
-    let ranked = harness.state().results.rank.value.as_ref();
+    let ranked = harness.state().shell.results.rank.value.as_ref();
     let reasons = ranked.into_iter().flat_map(|figures| figures.known.values());
     let reasons = reasons.filter_map(|known| known.outcome.as_ref().err().cloned());
     let ranked = ranked.into_iter().flat_map(|figures| figures.products.iter());

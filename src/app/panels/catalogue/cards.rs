@@ -1,11 +1,11 @@
 //! The products of the catalogue as a gallery: cards, each with a picture of the product's transmittance.
 
 use super::{entry, names};
+use crate::app::catalogue::gallery::Gallery;
+use crate::app::catalogue::shelf::Found;
 use crate::app::command::Command;
-use crate::app::gallery::Gallery;
-use crate::app::shelf::Found;
+use crate::app::display::theme;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::texts::{catalogue as text, fixed};
 use egui::{Color32, FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 

@@ -2,11 +2,11 @@
 //! its comparison button.
 
 use super::menu;
+use crate::app::catalogue::shelf::{Entry, Found};
 use crate::app::command::Command;
 use crate::app::compare::Act;
-use crate::app::shelf::{Entry, Found};
+use crate::app::display::theme;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::catalogue::Sort;
 use crate::study::scene_file::SystemKeys;
 use crate::texts::{catalogue as text, fixed};

@@ -1,10 +1,10 @@
 //! Filters of the catalogue: facets as menus, chosen values as chips, the order of the list; and suggestions of filters
 //! to remove if nothing is found.
 
+use crate::app::catalogue::shelf::{Found, Query};
 use crate::app::command::Command;
-use crate::app::shelf::{Found, Query};
+use crate::app::display::theme;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::catalogue::{Facet, Figure, Filter, Origin, Sort};
 use crate::drawing::ticks::number;
 use crate::texts::{Text, catalogue as text};

@@ -1,10 +1,10 @@
 //! The products of the catalogue as a list.
 
 use super::{entry, names};
+use crate::app::catalogue::shelf::Found;
 use crate::app::command::Command;
-use crate::app::shelf::Found;
+use crate::app::display::theme;
 use crate::app::state::State;
-use crate::app::theme;
 use egui::{FontId, Rect, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
 
 /// Height that a second line of the product's name adds to a row. \[points\]

@@ -3,13 +3,13 @@
 use super::places::{kind, missing, places, tile};
 use crate::app::command::Command;
 use crate::app::compare::{Act, Part};
-use crate::app::compare_columns::{Column, Columns};
-use crate::app::jobs::Lane;
+use crate::app::compare::{Column, Columns};
+use crate::app::display::theme;
 use crate::app::paint;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};
 use crate::app::paint::palette::{ColourMap, Palette};
+use crate::app::shell::jobs::Lane;
 use crate::app::state::{State, Tile};
-use crate::app::theme;
 use crate::app::tiles::TileInput;
 use crate::drawing::ticks::{fine_ceil, si, tick};
 use crate::report::TileKind;

@@ -1,11 +1,11 @@
 //! Curves of all candidates in the same plot, distinguished by colour and dashes.
 
 use super::places::{kind, short, tile_words};
-use crate::app::compare_columns::{Column, Columns};
-use crate::app::control::rule_curve;
+use crate::app::compare::{Column, Columns};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;
+use crate::app::scene::control::rule_curve;
 use crate::app::state::State;
 use crate::compute::estimate::Estimate;
 use crate::drawing::plot::Plot;

@@ -1,11 +1,11 @@
 //! Difference of each candidate's results from those of the reference candidate, with sign, all with one colour scale.
 
 use super::places::{kind, missing, places, short};
-use crate::app::compare_columns::{Column, Columns};
+use crate::app::compare::{Column, Columns};
+use crate::app::display::theme;
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::app::views::difference::{self, Picture};
 use crate::compute::estimate::Estimate;
 use crate::report::TileKind;

@@ -3,7 +3,7 @@
 
 use crate::app::command::Command;
 use crate::app::compare::Act;
-use crate::app::theme;
+use crate::app::display::theme;
 use crate::app::window::App;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};
 use crate::texts::compare as texts;
@@ -77,7 +77,7 @@ const OUTER: f32 = 370.0;
 
 /// Draws the table of figures, or the lines that replace it in little space.
 pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let (rows, names) = (app.rows(), app.compare.names());
+    let (rows, names) = (app.compare.rows(), app.compare.names());
     let palette = theme::palette(ui);
     ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
         for (column, name) in app.compare.list.iter().zip(&names) {

@@ -1,9 +1,9 @@
 //! Findings of the data check on datasets, with repairs to try, and a picture of the directions of the transmitted
 //! light, which shows whether the orientation of the data is right.
 
+use crate::app::display::theme;
 use crate::app::import::number;
 use crate::app::state::State;
-use crate::app::theme;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways};
 use crate::texts::findings::words;

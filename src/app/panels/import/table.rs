@@ -3,9 +3,8 @@
 
 use super::findings::{counts, worst};
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed, Row, StateWords, number};
-use crate::app::import_steps::{Choose, Step};
-use crate::app::theme::{self, Palette};
+use crate::app::display::theme::{self, Palette};
+use crate::app::import::{Choose, Import, Proposed, Row, StateWords, Step, number};
 use crate::catalogue::Ambiguity;
 use crate::compute::btdf::Severity;
 use crate::texts::{Text, fixed, import as text};

@@ -1,10 +1,10 @@
 //! Section of the obstructions: boxes with name, position and size in metres, and reflectance or luminance.
 
 use crate::app::command::Command;
-use crate::app::outside::{Act, Kind, ObstructionEffects, building, exact, name};
+use crate::app::display::theme;
 use crate::app::panels::fields::{number, number_by, row};
+use crate::app::scene::outside::{Act, Kind, ObstructionEffects, building, exact, name};
 use crate::app::state::Shown;
-use crate::app::theme;
 use crate::compute::estimate::Estimate;
 use crate::compute::surroundings::solid::Solid;
 use crate::study::scene_file::{OutsideKeys, SceneFile, USUAL_REFLECTANCE};
@@ -196,7 +196,7 @@ fn one(ui: &mut Ui, keys: &mut OutsideKeys) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::outside::act;
+    use crate::app::scene::outside::act;
     use crate::study::example::first_scene;
 
     #[test]

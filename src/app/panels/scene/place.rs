@@ -2,10 +2,10 @@
 //! elevation as typed numbers.
 
 use super::summer_time;
+use crate::app::display::theme;
 use crate::app::panels::fields::{number, optional, select_all};
-use crate::app::theme;
+use crate::app::shell::typing::read_coordinates;
 use crate::app::title::{coordinates, site};
-use crate::app::typing::read_coordinates;
 use crate::study::places::{City, city_at, nearest, search, summer_time as rule};
 use crate::study::scene_file::{DstKey, SceneFile};
 use crate::study::sky::{HIGHEST, LOWEST};

@@ -1,11 +1,11 @@
 //! Section of the sky: its luminance model, and the source of its illuminances (diffuse horizontal, direct normal),
 //! which are shown whatever their source.
 
-use crate::app::moment;
+use crate::app::display::theme;
 use crate::app::panels::fields::{figure, lines, number, optional};
 use crate::app::scene::follow;
-use crate::app::theme;
-use crate::app::typed_path::typed_path;
+use crate::app::scene::moment;
+use crate::app::shell::typed_path::typed_path;
 use crate::compute::sky::availability::Cover;
 use crate::study::scene_file::{IlluminanceKey, SceneFile, SkyKeys, SkyModelKey, USUAL_IRRADIANCES};
 use crate::study::sky::{CLEANEST, HAZIEST, Illuminances, Source, TWILIGHT, illuminances};

@@ -1,7 +1,7 @@
 //! Fields of the skyline: its altitude, uniform or at compass bearings.
 
 use crate::app::panels::fields::number;
-use crate::app::typing::read_number;
+use crate::app::shell::typing::read_number;
 use crate::study::scene_file::{ObstructionKeys, SceneFile, SkylineKeys};
 use crate::texts::scene as texts;
 use egui::{DragValue, Ui};

@@ -1,8 +1,8 @@
 //! Fields of summer time: the rule for the days on which the clock is one hour ahead of standard time.
 
-use crate::app::clock;
 use crate::app::panels::fields::{row, typed};
-use crate::app::typing::read_date;
+use crate::app::shell::clock;
+use crate::app::shell::typing::read_date;
 use crate::study::scene_file::{ANY_YEAR, DstKey, SceneFile};
 use crate::texts::{Text, scene as texts};
 use egui::{ComboBox, Ui};

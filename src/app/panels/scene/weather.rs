@@ -2,11 +2,11 @@
 //! the settings of an annual simulation.
 
 use crate::app::command::Command;
+use crate::app::display::theme;
 use crate::app::panels::fields::{lines, number, typed};
+use crate::app::shell::typed_path::typed_path;
 use crate::app::state::Shown;
-use crate::app::theme;
 use crate::app::title::coordinates;
-use crate::app::typed_path::typed_path;
 use crate::app::views::calendar;
 use crate::app::year::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
 use crate::compute::weather::Station;

@@ -1,11 +1,11 @@
 //! Section of date and time: typed, set by sliders, or replaced by the angles of the sun. Every line has a fixed
 //! position, whatever the sun's.
 
-use crate::app::clock;
-use crate::app::moment;
+use crate::app::display::theme;
 use crate::app::panels::fields::{lines, number, typed};
-use crate::app::theme;
-use crate::app::typing::{read_clock, read_date};
+use crate::app::scene::moment;
+use crate::app::shell::clock;
+use crate::app::shell::typing::{read_clock, read_date};
 use crate::study::scene_file::{DstKey, SceneFile};
 use crate::study::sun_position::RiseSet;
 use crate::texts::scene as texts;

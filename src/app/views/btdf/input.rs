@@ -1,8 +1,8 @@
 //! Input of the BTDF tile, and the requests of its user.
 
-use crate::app::data_looks::{FormResult, SchemesResult};
-use crate::app::incidence::Incidence;
 use crate::app::paint::tile::Status;
+use crate::app::results::data_looks::{FormResult, SchemesResult};
+use crate::app::scene::incidence::Incidence;
 use crate::compute::btdf::Btdf;
 use crate::compute::direction::Incident;
 use crate::study::data_form::DataForm;

@@ -3,10 +3,10 @@
 //! reason for it.
 
 use super::input::{Input, SchemesInput};
-use crate::app::data_looks::NoSchemes;
 use crate::app::paint::hemisphere::{Disk, Projection, Side};
 use crate::app::paint::palette::{ColourMap, ColourMapExt as _, Palette};
 use crate::app::paint::tile::Foot;
+use crate::app::results::data_looks::NoSchemes;
 use crate::compute::direction::Dir;
 use crate::compute::incidence::schemes::SunScheme;
 use crate::compute::incidence::ways::{Triangle, Way};
@@ -185,7 +185,7 @@ pub(super) fn legend(ui: &Ui, rect: Rect, align: Align2, input: &Input<'_>, pale
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::data_looks::SchemesResult;
+    use crate::app::results::data_looks::SchemesResult;
     use crate::compute::incidence::left_out::Errors;
 
     fn triangle(way: Way) -> Triangle {

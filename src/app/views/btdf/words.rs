@@ -1,8 +1,8 @@
 //! Texts of the line under the hemispheres: the incident direction shown and its transmittance τ, or values under the
 //! pointer.
 
-use crate::app::incidence::{Incidence, direction_text};
 use crate::app::paint::tile::Foot;
+use crate::app::scene::incidence::{Incidence, direction_text};
 use crate::compute::basis::Cell;
 use crate::compute::btdf::{Btdf, Scattered};
 use crate::compute::direction::{Dir, Emergent, Facade, Incident};

@@ -1,7 +1,7 @@
 //! Input of the room tile, requests of its user, and the mapping between room and screen.
 
 use crate::app::paint::tile::Status;
-use crate::app::room_look::{RoomLook, RoomView};
+use crate::app::scene::room_look::{RoomLook, RoomView};
 use crate::compute::direction::Surface;
 use crate::compute::sky::GroundShade;
 use crate::drawing::ticks::{number, si};

@@ -1,0 +1,88 @@
+//! Data of built-in products, which are computed in advance while nothing else is.
+
+use super::shelf::Shelf;
+use crate::app::results::work::Outcome;
+use crate::app::shell::Shell;
+use crate::app::shell::error::AppError;
+use crate::app::shell::jobs::{JobState, Lane};
+use crate::compute::estimate::Progress as _;
+use crate::texts::shell;
+use std::time::{Duration, Instant};
+
+/// Number of failed computations after which built-in products are no longer computed in advance.
+const MOST_FAILURES: usize = 5;
+
+/// Time for which data of built-in products are computed in a job before their order is determined again.
+const FILLING: Duration = Duration::from_millis(500);
+
+/// Computation of data of built-in products in advance.
+#[derive(Default)]
+pub struct BuiltIn {
+    /// Whether data are still to be computed.
+    due: bool,
+    /// Number of failures.
+    failures: usize,
+}
+
+impl BuiltIn {
+    /// Whether data are still to be computed.
+    pub const fn is_due(&self) -> bool {
+        self.due
+    }
+
+    /// Marks the computation as due.
+    pub const fn owe(&mut self) {
+        self.due = true;
+    }
+
+    /// Starts computing, while nothing else is computed: first the data of the selected product, then the
+    /// representative states of the listed products, then the rest. After a stop it resumes when another product is
+    /// selected.
+    pub fn fill(&mut self, shell: &mut Shell) {
+        if !self.due || !shell.jobs.views().is_empty() {
+            return;
+        }
+        let Some(shelf) = shell.state.shelf() else { return };
+        self.due = false;
+        if self.failures >= MOST_FAILURES {
+            return;
+        }
+        let chosen = std::iter::once(shell.state.document.selection.product.clone());
+        let order: Vec<String> =
+            chosen.chain(shell.state.found.entries.iter().map(|entry| entry.key.clone())).collect();
+        shell.start(Lane::Builtin, move |progress| Outcome::Builtin(fill_some(&*shelf, &order, progress)));
+    }
+
+    /// Takes over the end of a job: the number of states left, or why one could not be computed.
+    pub fn take(&mut self, shell: &mut Shell, left: Result<usize, AppError>) {
+        match left {
+            Ok(0) => shell.search(),
+            Ok(_) => {
+                self.due = true;
+                shell.show_new_pictures();
+            }
+            Err(error) => {
+                shell.toasts.warning(shell::builtin_failed(error));
+                // Failed states are skipped from now on; a catalogue that cannot be written to fails permanently.
+                self.failures += 1;
+                self.due = true;
+            }
+        }
+    }
+}
+
+/// Computes and stores missing datasets of products in advance, in the `order` of product keys, for the time
+/// [`FILLING`]. Returns the number of states left.
+fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState) -> Result<usize, AppError> {
+    // A separate thread pool, so that visible results never wait behind this; one core stays free for the window.
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build()?;
+    let start = Instant::now();
+    loop {
+        let [left, all] = pool.install(|| shelf.fill_one(order, progress))?;
+        progress.advance("computing", all.saturating_sub(left), all);
+        if left == 0 || start.elapsed() > FILLING {
+            return Ok(left);
+        }
+    }
+}
