@@ -160,7 +160,7 @@ impl App {
             Command::AddAnyway(number, anyway) => self.imports.add_anyway(number, anyway),
             Command::Repair(number, repair) => self.imports.repair(shell, number, |repairs| repairs.push(repair)),
             Command::UndoRepair(number) => {
-                self.imports.repair(shell, number, |repairs| repairs.truncate(repairs.len().saturating_sub(1)))
+                self.imports.repair(shell, number, |repairs| repairs.truncate(repairs.len().saturating_sub(1)));
             }
             Command::AddImport => {
                 let additions = self.imports.take_ready(shell);

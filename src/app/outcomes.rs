@@ -125,7 +125,7 @@ impl App {
             Outcome::Choice(Ok(product)) => choose_product(&mut self.shell, &product),
             Outcome::Choice(Err(error)) => self.shell.report_error(&error),
             Outcome::Changed(number, forth, result) => {
-                self.products.take_changed(&mut self.shell, number, forth, result)
+                self.products.take_changed(&mut self.shell, number, forth, result);
             }
             Outcome::Editing(looked) => self.products.take_editing(&mut self.shell, looked),
             Outcome::ToReplace(change) => self.products.take_replacement(&mut self.shell, change),

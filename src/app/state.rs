@@ -47,16 +47,15 @@ pub struct Document {
     pub selection: Selection,
     /// Scene: site, date and time, sky, obstructions, room, apertures, sensor points.
     pub scene: SceneFile,
-    /// Indices of the additions of this session that are currently in the catalogue; see [`State::additions`].
+    /// Indices of the additions of this session that are currently in the catalogue.
     pub additions: Vec<usize>,
-    /// Indices of the changes of this session to products that are in effect; see [`State::changes`].
+    /// Indices of the changes of this session to products that are in effect.
     pub changes: Vec<usize>,
-    /// Indices of the changes in effect that affect no result: favourites, collections, subscriptions; see
-    /// [`State::changes`].
+    /// Indices of the changes in effect that affect no result: favourites, collections, subscriptions.
     pub marks: Vec<usize>,
-    /// Indices of the imports that are currently discarded; see [`State::discarded`].
+    /// Indices of the imports that are currently discarded.
     pub discarded: Vec<usize>,
-    /// Indices of the changes of an import's grouping that are in effect; see [`State::arranged`].
+    /// Indices of the changes of an import's grouping that are in effect.
     pub arranged: Vec<usize>,
 }
 

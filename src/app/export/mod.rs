@@ -319,7 +319,7 @@ impl Export {
         {
             return self.write_lid(shell, path);
         }
-        if let Some((tile, path, text)) = self.requests.next() {
+        if let Some((tile, path, text)) = self.requests.next_for_file() {
             let made_from = shell.state.made_from();
             self.start_writing(shell, move || {
                 Outcome::Written(PathUse::ExportTile(tile), write_whole(&path, text.as_bytes(), &made_from))

@@ -67,7 +67,7 @@ impl Numbers {
     }
 
     /// Returns the next numbers that are to be written to a file.
-    pub fn next(&mut self) -> Option<(Tile, PathBuf, String)> {
+    pub fn next_for_file(&mut self) -> Option<(Tile, PathBuf, String)> {
         self.done.pop()
     }
 

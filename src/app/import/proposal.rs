@@ -69,7 +69,7 @@ impl StateWords {
 /// Product that an import proposes from files, before it is stored in the catalogue.
 #[derive(Debug, Clone, Default)]
 pub struct Proposed {
-    /// Identifiers of its files, in their order; see [`file_id`].
+    /// Identifiers of its files (folder and name), in their order.
     pub files: Vec<String>,
     /// Whether the product comes from a package, whose states are not regrouped.
     pub packed: bool,
