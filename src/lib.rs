@@ -79,7 +79,7 @@
 //! | change the guide | the page in `assets/guide`; `tests/cli/documents.rs` says how its examples are tested |
 //! | add a kind of obstruction to the window's commands | [`app::scene::outside`] |
 //! | change the tour | [`app::tour`] |
-//! | add a feature to the window | a folder in [`app`] with its state, its commands and what they do, its field in [`app::window::App`] |
+//! | add a feature to the window | a folder in [`app`] with its state, its commands and what they do; its field in [`app::window::App`]; where it has jobs, their results in [`app::results::work::Outcome`] and a lane in [`app::shell::lane`] |
 //! | add a command, a menu entry or a shortcut | [`app::command`], its entry in [`app::offer`], its effect in its feature, to which [`app::apply`] hands it |
 //! | change which imported files belong to one product | [`catalogue::Grouping`] and its file |
 //! | extend the report on an internal error | [`study::fault`]; the window's part in [`app::session`] |

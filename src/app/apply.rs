@@ -1,4 +1,5 @@
-//! Execution of commands: each goes to the feature that it is about.
+//! Execution of commands: each goes to the feature that it is about. What concerns several (undo, paths, stopping) stands
+//! here.
 
 use super::catalogue::CatalogueCommand;
 use super::command::Command;
@@ -82,7 +83,7 @@ impl App {
             Command::ControlOf(index) => {
                 state.control_of = index;
                 // What was asked last is known by the document, which does not hold this choice: ask again by hand.
-                shell.asked = None;
+                shell.ask_again();
             }
             Command::Quit => shell.ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Command::Undo => self.step_history(false),
@@ -279,7 +280,7 @@ impl App {
             PathUse::Export => self.export.start(shell, path),
             PathUse::ExportMeasured => {
                 shell.state.sheet = Some(Sheet::Goniophotometer);
-                match self.goniophotometer.writing(path, shell.state.made_from()) {
+                match self.goniophotometer.write_job(path, shell.state.made_from()) {
                     Some(write) => self.export.start_writing(shell, move || Outcome::Written(what, write())),
                     None => shell.toasts.info(texts::COMPUTE_FIRST),
                 }

@@ -1,4 +1,4 @@
-//! Work of the window: created from its features, one frame after the other, closed. It never waits.
+//! Work of the window: created from its features, one frame after the other, closed. Only closing waits.
 
 use super::command::Command;
 use super::display::font_search::FontSearch;
@@ -8,10 +8,11 @@ use super::display::{right_to_left, theme};
 use super::offer::pressed;
 use super::results::backend;
 use super::results::engine::Engine;
-use super::session::{Kept, Open, Put, say_restored};
+use super::session::{Content, ContentMut, Kept, Session, say_restored};
 use super::shell::dialogs::NoDialogs;
 use super::shell::error::AppError;
-use super::shell::jobs::{JobView, Lane};
+use super::shell::jobs::Lane;
+use super::shell::messages::Messages;
 use super::shell::settings::MEGABYTE;
 use super::shell::{Services, Shell};
 use super::state::{Settings, State, Tile};
@@ -94,9 +95,15 @@ impl App {
         &self.shell.bench.times
     }
 
+    /// Returns the session, the messages, and what the session stores of the window.
+    pub(super) const fn session_with_content(&mut self) -> (&mut Session, &mut Messages, Content<'_>) {
+        let Self { session, shell, imports, goniophotometer, .. } = self;
+        (session, &mut shell.toasts, Content { state: &shell.state, imports, goniophotometer })
+    }
+
     /// Returns what a session stores of the window.
-    pub const fn content(&self) -> Open<'_> {
-        Open { state: &self.shell.state, imports: &self.imports, goniophotometer: &self.goniophotometer }
+    pub const fn content(&self) -> Content<'_> {
+        Content { state: &self.shell.state, imports: &self.imports, goniophotometer: &self.goniophotometer }
     }
 
     /// Sets the folder to which reports on internal errors are written.
@@ -110,7 +117,7 @@ impl App {
     /// Returns a message if the scene cannot be read; everything else is restored nevertheless.
     pub fn restore(&mut self, kept: &Kept) -> Result<(), String> {
         let Self { shell, imports, goniophotometer, .. } = self;
-        kept.put_into(Put { state: &mut shell.state, imports, goniophotometer })
+        kept.put_into(ContentMut { state: &mut shell.state, imports, goniophotometer })
     }
 
     /// Starts storing the session in a folder, and restores the session found there. `take_up`: whether to restore also
@@ -140,8 +147,8 @@ impl App {
 
     /// Passes the current session to the thread that stores it, if it has changed. Never waits.
     fn keep_session(&mut self) {
-        let Self { session, shell, imports, goniophotometer, .. } = self;
-        session.keep(Open { state: &shell.state, imports, goniophotometer }, &mut shell.toasts);
+        let (session, toasts, content) = self.session_with_content();
+        session.keep(content, toasts);
     }
 
     /// Ends the window: waits until data being stored or written are complete, and leaves the session for the next
@@ -155,12 +162,12 @@ impl App {
             self.write_exports();
             std::thread::sleep(Duration::from_millis(5));
         }
-        let Self { session, shell, imports, goniophotometer, .. } = self;
-        session.close(Open { state: &shell.state, imports, goniophotometer });
+        let (session, _, content) = self.session_with_content();
+        session.close(content);
     }
 
     fn write_exports(&mut self) {
-        let is_complete = self.is_complete();
+        let is_complete = self.export.awaits_lid() && self.is_complete();
         self.export.write_due(&mut self.shell, is_complete);
     }
 
@@ -254,10 +261,9 @@ impl Drop for App {
         if std::thread::panicking() {
             // A second fault here would end the program before it has said anything.
             drop(catch_unwind(AssertUnwindSafe(|| {
-                let Self { session, shell, imports, goniophotometer, .. } = self;
-                let words = |text: String, job: JobView| text + "; " + job.lane.word().english();
-                let doing = shell.jobs.views().into_iter().fold("window".to_owned(), words);
-                session.end_at_fault(&doing, Open { state: &shell.state, imports, goniophotometer });
+                let jobs = self.shell.jobs.views();
+                let (session, _, content) = self.session_with_content();
+                session.end_at_fault(&jobs, content);
             })));
         }
     }

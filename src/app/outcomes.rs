@@ -3,12 +3,11 @@
 use super::command::Command;
 use super::export::take_copied;
 use super::results::ask_scene;
-use super::session::Open;
 use super::state::{CatalogueState, PathUse, Sheet};
 use super::window::App;
 use super::year::{YearAct, weather_name};
 use crate::app::results::work::Outcome;
-use crate::app::scene::selection::{adopt, choose_product, select_something};
+use crate::app::scene::selection::{adopt_selection, choose_product, select_something};
 use crate::app::shell::error::{AppError, JobError};
 use crate::app::shell::jobs::Lane;
 use crate::study::files;
@@ -43,7 +42,7 @@ impl App {
                 self.products.look_up_sets(&mut self.shell);
                 self.products.sync_subscribed(&mut self.shell);
                 self.built_in.owe();
-                self.shell.asked = None;
+                self.shell.ask_again();
                 self.imports.start_waiting_files(&mut self.shell);
             }
             Outcome::Builtin(left) => self.built_in.take(&mut self.shell, left),
@@ -102,7 +101,7 @@ impl App {
                 self.shell.end_step();
                 self.shell.state.document.scene = *scene;
                 self.shell.state.scene_path = Some(path);
-                adopt(&mut self.shell);
+                adopt_selection(&mut self.shell);
             }
             Outcome::ReadCurve(Ok(curve)) => {
                 let keys = self.shell.state.control_keys().with_mode(ControlMode::Curve);
@@ -176,9 +175,8 @@ impl App {
         let text = format!("{}: {error}", lane.word());
         match &error {
             JobError::Panic(fault) => {
-                let Self { session, shell, imports, goniophotometer, .. } = self;
-                let content = Open { state: &shell.state, imports, goniophotometer };
-                session.save_now(content, &mut shell.toasts);
+                let (session, toasts, content) = self.session_with_content();
+                session.save_now(content, toasts);
                 match session.report(fault, &format!("{}, {stage}", lane.word().english()), content) {
                     Some(Ok(path)) => self.shell.toasts.fault(shell::reported(&text, path.display()), path),
                     Some(Err(error)) => self.shell.toasts.error(shell::not_reported(&text, error)),

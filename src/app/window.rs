@@ -14,7 +14,7 @@ use super::shell::Shell;
 use super::state::{Sheet, State};
 use super::tour::Tour;
 use super::views::{accuracy, calendar, section, states};
-use super::year::AnnualSimulation;
+use super::year::CalendarRequest;
 use crate::app::display::font_search::FontSearch;
 
 /// Window of the program. Each feature owns its state; all work on the shell.
@@ -38,7 +38,7 @@ pub struct App {
     /// Cache of findings of the data check, by content of the dataset.
     pub(super) examined: Examined,
     /// Annual simulation, except its result.
-    pub(super) year: AnnualSimulation,
+    pub(super) year: CalendarRequest,
     /// Rankings, except the results shown.
     pub(super) ranking: Ranking,
     /// Candidates of the comparison, with their results.

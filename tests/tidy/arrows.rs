@@ -102,12 +102,15 @@ pub fn arrows(sources: &[(String, String)]) -> Arrows {
     found
 }
 
+/// Rooms of the window that are below its features (`paint`), or that compose and draw them.
+const COMPOSED: [&str; 7] = ["apply", "desktop", "frame", "outcomes", "paint", "panels", "window"];
+
 /// The same between rooms: the first `depth` words of their paths. The features of the window are one room: they name
-/// each other's data, as the state does that they share. What they draw with (`paint`) is below them.
+/// each other's data, as the state does that they share. [`COMPOSED`] names the others.
 pub fn between_rooms(arrows: &Arrows, depth: usize) -> Arrows {
     let room = |file: &str| {
         let words = module_of(file);
-        let is_feature = words[0] == "app" && words.get(1).is_none_or(|word| word != "paint");
+        let is_feature = words[0] == "app" && words.get(1).is_none_or(|word| !COMPOSED.contains(&word.as_str()));
         words.into_iter().take(if is_feature { 1 } else { depth }).collect::<Vec<_>>().join("/")
     };
     let mut rooms = Arrows::new();

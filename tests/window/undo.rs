@@ -137,8 +137,13 @@ fn products_that_take_long_to_store_are_taken_back_in_one_step() {
     rest(&mut harness);
     let added = kept(&harness);
     assert!(added.products.len() == count + 1 && added.document.selection != before.selection);
+    let says = |harness: &Harness<'_, App>| {
+        harness.state().shell.toasts.shown().any(|message| message.text.ends_with("Ctrl+Z removes it"))
+    };
+    assert!(says(&harness));
     apply(&mut harness, Command::Undo);
     assert_eq!((kept(&harness).document, kept(&harness).products.len()), (before, count));
+    assert!(!says(&harness), "it is removed");
 }
 
 #[test]

@@ -31,7 +31,7 @@ impl Products {
         let mut numbered = Vec::new();
         for addition in additions {
             let number = self.additions.len();
-            self.additions.push(Added { addition: addition.clone(), key: None });
+            self.additions.push(Added { addition: addition.clone(), key: None, said: None });
             shell.state.document.additions.push(number);
             numbered.push((number, addition));
         }
@@ -70,7 +70,7 @@ impl Products {
             shell.store(move |shelf| shelf.remove_all(&undone));
         }
         // What was asked before they were there has failed.
-        shell.asked = None;
+        shell.ask_again();
         if let Some(first) = added.first() {
             let what = match (added.len() - there, there) {
                 (0, _) => shell::NOTHING_NEW.into(),
@@ -78,7 +78,8 @@ impl Products {
                 (new, 0) => shell::added(new),
                 (new, known) => shell::added_some(new, known),
             };
-            shell.toasts.success(what);
+            let message = shell.toasts.success(what);
+            numbers.iter().for_each(|number| self.additions[*number].said = Some(message));
             // The step that added it also shows it.
             let (rule, place) = first.representative();
             let state = first.states.get(place).filter(|_| first.states.len() > 1);
@@ -100,9 +101,15 @@ impl Products {
     pub fn step_additions(&mut self, shell: &mut Shell, before: &[usize]) {
         let after = shell.state.document.additions.clone();
         let gone = before.iter().filter(|number| !after.contains(number));
-        let gone: Vec<String> = gone.filter_map(|&number| self.additions[number].key.take()).collect();
-        if !gone.is_empty() {
-            shell.store(move |shelf| shelf.remove_all(&gone));
+        let mut keys = Vec::new();
+        for &number in gone {
+            let addition = &mut self.additions[number];
+            // What it says how to undo is undone.
+            addition.said.take().into_iter().for_each(|message| shell.toasts.dismiss(Some(message)));
+            keys.extend(addition.key.take());
+        }
+        if !keys.is_empty() {
+            shell.store(move |shelf| shelf.remove_all(&keys));
         }
         // What is still being stored since it was added is there again as soon as it is there.
         let back = after.iter().filter(|number| !before.contains(number) && !self.adding.contains(number));

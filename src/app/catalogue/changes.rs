@@ -13,6 +13,8 @@ pub(super) struct Added {
     pub(super) addition: Addition,
     /// Key of the product in the catalogue; `None` while it is not there.
     pub(super) key: Option<String>,
+    /// Number of the message that says that it was added, if there was one.
+    pub(super) said: Option<u64>,
 }
 
 /// Change of the catalogue, stored so that undo can revert it and redo make it again.
@@ -126,9 +128,9 @@ impl Looked {
     pub fn read(shelf: &dyn Shelf, key: &str) -> Result<Self, AppError> {
         Ok(Self {
             product: shelf.product(key)?,
+            subscribed: shelf.subscribed_folder(key)?,
             history: shelf.history(key)?,
             paths: shelf.source_paths(key)?,
-            subscribed: shelf.subscribed_folder(key)?,
         })
     }
 }

@@ -19,10 +19,10 @@ pub type Made = (Arc<str>, Option<Arc<ColorImage>>);
 
 /// Requested picture: keys of product and state, hash of the data.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in crate::app) struct Wanted {
+pub(super) struct Wanted {
     product: String,
     state: String,
-    pub(in crate::app) dataset: Arc<str>,
+    pub(super) dataset: Arc<str>,
 }
 
 /// Cache of the product pictures in the gallery.
@@ -35,7 +35,7 @@ pub struct Gallery {
 }
 
 /// Draws the light distribution of a product's state for direct sun at the polar angle [`TYPICAL_SUN`].
-pub(in crate::app) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorImage>> {
+pub(super) fn picture(shelf: &dyn Shelf, wanted: &Wanted) -> Option<Arc<ColorImage>> {
     let dataset = shelf.load(&wanted.product, Some(&wanted.state)).ok()?;
     let btdf = dataset.transmission()?;
     let sun = Incident(Dir::from_theta_phi(TYPICAL_SUN.to_radians(), FRAC_PI_2));
@@ -59,7 +59,7 @@ impl Gallery {
     }
 
     /// Returns the pictures that visible cards have requested since the last call and that are missing.
-    pub(in crate::app) fn wanted(&mut self) -> Vec<Wanted> {
+    pub(super) fn wanted(&mut self) -> Vec<Wanted> {
         let mut list = std::mem::take(&mut self.wanted);
         list.retain(|one| !self.pictures.contains_key(&one.dataset));
         list.truncate(AT_ONCE);

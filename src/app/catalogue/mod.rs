@@ -1,5 +1,5 @@
 //! Products of the catalogue as the window changes them: additions, changes of texts and data, deleted products,
-//! collections, subscriptions. Undo covers all of it.
+//! collections, subscriptions (undo covers all of it); and what shows and fills it.
 
 mod additions;
 mod built_in;
@@ -169,7 +169,7 @@ impl Products {
     }
 
     /// Takes over the end of a change: it is forgotten if it failed, and what it affects is read again.
-    pub fn take_changed(&mut self, shell: &mut Shell, number: usize, forth: bool, result: Result<(), AppError>) {
+    pub fn take_changed(&self, shell: &mut Shell, number: usize, forth: bool, result: Result<(), AppError>) {
         if let Err(error) = result {
             if forth {
                 shell.state.document.changes.retain(|&other| other != number);
@@ -187,7 +187,7 @@ impl Products {
             return shell.search();
         }
         // What is shown, and the header of the LID, may be of before.
-        shell.asked = None;
+        shell.ask_again();
         shell.search();
         self.look_up_deleted(shell);
     }
@@ -216,7 +216,7 @@ impl Products {
     }
 
     /// Takes over the report on reading the subscribed folders.
-    pub fn take_synced(&mut self, shell: &mut Shell, result: Result<Report, AppError>) {
+    pub fn take_synced(&self, shell: &mut Shell, result: Result<Report, AppError>) {
         match result {
             Ok(report) => {
                 for problem in report.problems {

@@ -145,7 +145,7 @@ impl Products {
     }
 
     /// Takes over collections and subscriptions.
-    pub fn take_sets(&mut self, shell: &mut Shell, sets: Result<Sets, AppError>) {
+    pub fn take_sets(&self, shell: &mut Shell, sets: Result<Sets, AppError>) {
         match sets {
             Ok(sets) => shell.state.sets = sets,
             Err(error) => shell.report_error(&error),

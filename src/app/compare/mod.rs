@@ -64,7 +64,7 @@ fn shown_words(state: &State) -> String {
 }
 
 /// Returns the kinds of results that a tile needs in the given display of the comparison.
-pub fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
+fn parts(look: Look, tile: Option<TileKind>) -> &'static [Part] {
     use TileKind::{Btdf, Choose, Control, Lid, Room, Sky, Transmittance, Year};
     match (look, tile) {
         (Look::Figures, _) => &[Part::Shelf, Part::Data, Part::Room, Part::Lid, Part::Peaks],

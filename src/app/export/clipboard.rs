@@ -1,5 +1,5 @@
 //! Copying to the clipboard: tiles as pictures, and the value under the pointer. The numbers of tiles are copied by
-//! [`crate::app::export`].
+//! [`Export::copy_tile`].
 
 use super::Export;
 use super::choices::{Choices, What};

@@ -74,7 +74,7 @@ impl Order {
     }
 
     /// Draws the chosen tile as an exported picture.
-    pub(in crate::app) fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
+    pub(super) fn picture(&self, progress: &dyn Progress) -> Result<Drawing, AppError> {
         let choices = &self.choices;
         // Before anything is computed: settings of another day may hold any number.
         let Size { width, height, unit } = choices.size;
@@ -339,12 +339,12 @@ impl Order {
 }
 
 /// Returns the path of a file inside a folder of the same name.
-pub(in crate::app) fn in_own_folder(path: &Path) -> PathBuf {
+pub(super) fn in_own_folder(path: &Path) -> PathBuf {
     path.with_extension("").join(path.file_name().unwrap_or_default())
 }
 
 /// Returns the path of the index beside the files of a grid.
-pub(in crate::app) fn index_of(path: &Path) -> PathBuf {
+pub(super) fn index_of(path: &Path) -> PathBuf {
     path.with_extension("index.csv")
 }
 

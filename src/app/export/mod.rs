@@ -7,7 +7,8 @@ mod name;
 mod numbers;
 
 pub use clipboard::{copy_value, take_copied};
-pub use name::{file_name, start_path};
+use name::file_name;
+pub use name::start_path;
 pub use numbers::Numbers;
 
 use super::rank::present_ranking;
@@ -267,7 +268,7 @@ impl Export {
     }
 
     /// Stores the numbers that a tile has supplied for the export dialog.
-    pub fn take_numbers(&mut self, shell: &mut Shell) {
+    fn take_numbers(&mut self, shell: &Shell) {
         if let Some(text) = self.requests.take_of_dialog() {
             self.table = Some((key_of(&shell.state, &shell.results), text));
         }

@@ -219,7 +219,7 @@ impl Goniophotometer {
 
     /// Returns the writing of all states of the last run, to be executed in a job; `None` before there is one.
     /// `made_from`: input files, which are never overwritten.
-    pub fn writing(&self, path: PathBuf, made_from: Vec<PathBuf>) -> Option<impl FnOnce() -> Written + Send + use<>> {
+    pub fn write_job(&self, path: PathBuf, made_from: Vec<PathBuf>) -> Option<impl FnOnce() -> Written + Send + use<>> {
         let run = self.run.clone()?;
         Some(move || run::export(&run, &path, &made_from))
     }
@@ -231,6 +231,16 @@ type Written = Result<PathBuf, AppError>;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_file_is_named_by_the_system_it_holds() {
+        let mut bench = Goniophotometer::default();
+        assert_eq!(bench.file_name(), "system.cfsp");
+        bench.set_text(EXAMPLES[0].text.to_owned());
+        let described = bench.valid().unwrap().clone();
+        bench.run = Some(Run { described, setup: bench.setup, states: None, finished: Vec::new() });
+        assert_eq!(bench.file_name(), "venetian-blind-80-mm-curved.cfsp");
+    }
 
     #[test]
     fn a_wrong_key_is_told_at_once() {

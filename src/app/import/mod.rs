@@ -213,7 +213,7 @@ impl Imports {
     }
 
     /// Starts the repair job of the next product that waits for one.
-    pub fn repair_next(&mut self, shell: &mut Shell) {
+    fn repair_next(&self, shell: &mut Shell) {
         let import = self.open.as_ref().filter(|_| !shell.jobs.busy(Lane::Repair));
         let Some(product) =
             import.and_then(|import| import.products.iter().find(|one| one.requested_repairs.is_some()))
@@ -246,7 +246,8 @@ impl Imports {
         self.repair_next(shell);
     }
 
-    /// Returns all products of the import that are ready, to be stored in the catalogue. The others stay in the sheet.
+    /// Returns all products of the import that are ready, to be stored in the catalogue, and closes the sheet; the others
+    /// stay in it. Until [`Self::stored`] or [`Self::not_stored`] the session holds them.
     pub fn take_ready(&mut self, shell: &mut Shell) -> Vec<Addition> {
         let Some(mut import) =
             self.open.take_if(|import| !import.arranging && import.products.iter().any(Proposed::ready))
@@ -287,7 +288,7 @@ impl Imports {
         }
     }
 
-    /// Drops what was to be read, after its job has ended without a result.
+    /// Drops what was to be read, after its job has ended without a result or was cancelled.
     pub fn not_read(&mut self) {
         self.under_way = None;
     }

@@ -42,7 +42,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     let menus =
         egui::Panel::top("menu").frame(bar).show(ui, |ui| menu::show(ui, &app.shell.state, &mut commands)).inner;
     let mut places = tour::Places { menus, ..tour::Places::default() };
-    if app.tour.speaks() {
+    if app.tour.is_shown() {
         egui::Panel::top("tour").frame(bar).show(ui, |ui| tour::show(ui, app, &mut commands));
     }
     if !app.shell.state.document.scene.compare.is_empty() {

@@ -3,7 +3,8 @@
 
 mod board;
 
-pub use board::{Asked, Asking, Board, ChooseAct, Figures, Pace, figures_of, objectives_of, ranked_apertures};
+pub use board::{Asked, ChooseAct, Figures, Pace, objectives_of};
+use board::{Asking, Board, figures_of, ranked_apertures};
 
 use crate::app::catalogue::shelf::Shelf;
 use crate::app::results::engine::Engine;
@@ -129,7 +130,7 @@ impl Ranking {
     }
 
     /// Stores the results of the current ranking, so that they can be shown again.
-    pub fn keep(&mut self, shell: &mut Shell) {
+    pub fn keep(&mut self, shell: &Shell) {
         let Some(figures) = shell.results.rank.value.clone() else { return };
         let kept = &mut self.kept;
         kept.retain(|other| other.asked != figures.asked);

@@ -62,8 +62,8 @@ fn is_wanted(shell: &Shell, lane: Lane, lid_to_file: bool) -> bool {
 }
 
 impl Computations {
-    /// Starts all computations that a change of the document since the last call affects, and those of results with
-    /// texts in another language.
+    /// Marks the results that a change of the document since the last call affects as due, or those with texts in
+    /// another language, and starts what all of them need.
     pub fn refresh(&mut self, shell: &mut Shell, built_in: &mut BuiltIn) {
         let document = &shell.state.document;
         let asked = shell.asked_last();
@@ -93,7 +93,7 @@ impl Computations {
     }
 
     /// Cancels the jobs for the old document after a change and marks all results as due.
-    pub fn owe_results(&mut self, shell: &mut Shell) {
+    fn owe_results(&mut self, shell: &mut Shell) {
         for lane in [Lane::Lid, Lane::Room, Lane::Surfaces] {
             // While something is dragged a coarse picture comes to its end: else none ever would.
             if !(lane == Lane::Room && self.due.coarse && held(shell)) {
@@ -164,7 +164,7 @@ impl Computations {
     }
 
     /// Reduces the scene to fewer sensor points and a coarser mesh while geometry is dragged; returns `true` if it did.
-    fn coarsen(&mut self, shell: &mut Shell, scene: &mut SceneFile) -> bool {
+    fn coarsen(&mut self, shell: &Shell, scene: &mut SceneFile) -> bool {
         let geometry = Geometry::of(scene);
         let moved = self.due.geometry.as_ref().is_some_and(|old| *old != geometry);
         if let Some(plane) = scene.sensors.plane.as_mut().filter(|plane| plane.nx * plane.ny > AT_ONCE)
@@ -231,7 +231,7 @@ impl Computations {
     }
 
     /// Starts the computation of the annual shading control again if its input has changed.
-    pub fn ask_year(&mut self, shell: &mut Shell) {
+    fn ask_year(&mut self, shell: &mut Shell) {
         let state = &shell.state;
         let Some(product) = state.product.clone() else { return };
         let key = state.year_key(&product.key);

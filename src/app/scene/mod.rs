@@ -1,4 +1,4 @@
-//! First scene of the window, and functions that set and read systems and control rules of a scene.
+//! Scene of the window: the first one, its systems and control rules, the selection, its moment, its obstructions.
 
 pub mod control;
 pub mod facing;

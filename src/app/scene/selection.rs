@@ -170,7 +170,7 @@ pub fn step_state(shell: &mut Shell, step: i32) {
 
 /// Sets the selection to the product in the first aperture from the catalogue after a scene was opened. With a
 /// scene without products of the catalogue the selection stays.
-pub fn adopt(shell: &mut Shell) {
+pub fn adopt_selection(shell: &mut Shell) {
     if let Some(selection) = selection_of(&shell.state.document.scene) {
         shell.state.document.selection = selection;
     } else if !shell.state.document.selection.product.is_empty() {

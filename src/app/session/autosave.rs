@@ -6,7 +6,7 @@
 //! `last.json`.
 
 use super::error::SessionError;
-use super::snapshot::{Kept, KeptFault, Open, Snapshot};
+use super::snapshot::{Content, Kept, KeptFault, Snapshot};
 use crate::app::shell::clock;
 use crate::app::shell::disk::{ends_in, read_bytes};
 use crate::study::files::write_at_once;
@@ -195,7 +195,7 @@ impl Autosave {
     }
 
     /// Queues the state of the window for writing, if it has changed, without waiting.
-    pub fn keep(&mut self, content: Open<'_>) {
+    pub fn keep(&mut self, content: Content<'_>) {
         if self.last.as_ref().is_some_and(|last| last.is_of(content)) {
             return;
         }
@@ -332,7 +332,7 @@ fn write_until_closed(file: &Path, orders: &Receiver<Order>, errors: &Sender<Ses
 
 #[cfg(test)]
 mod tests {
-    use super::super::snapshot::Put;
+    use super::super::snapshot::ContentMut;
     use super::*;
     use crate::app::goniophotometer::Goniophotometer;
     use crate::app::import::Imports;
@@ -342,13 +342,13 @@ mod tests {
         let mut state = State::new(Settings::default());
         state.document.scene.site.azimuth = azimuth;
         let (imports, goniophotometer) = Default::default();
-        keeper.keep(Open { state: &state, imports: &imports, goniophotometer: &goniophotometer });
+        keeper.keep(Content { state: &state, imports: &imports, goniophotometer: &goniophotometer });
     }
 
     fn azimuth(kept: &Kept) -> f64 {
         let mut state = State::new(Settings::default());
         let (mut imports, mut goniophotometer) = <(Imports, Goniophotometer)>::default();
-        let put = Put { state: &mut state, imports: &mut imports, goniophotometer: &mut goniophotometer };
+        let put = ContentMut { state: &mut state, imports: &mut imports, goniophotometer: &mut goniophotometer };
         kept.put_into(put).unwrap();
         state.document.scene.site.azimuth
     }

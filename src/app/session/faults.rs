@@ -4,10 +4,11 @@
 //! session of the previous frame is on disk by then, and the next start shows a message with the path of the report.
 
 use super::autosave::Autosave;
-use super::{Open, Session};
+use super::{Content, Session};
 use crate::app::shell::Shell;
 use crate::app::shell::disk::read_bytes;
 use crate::app::shell::error::AppError;
+use crate::app::shell::jobs::JobView;
 use crate::study::fault::{self, Fault, Report};
 use crate::texts::shell;
 use std::path::{Path, PathBuf};
@@ -24,7 +25,7 @@ impl Session {
 
     /// Writes the report on an internal error, or finds an earlier report on the same one, and returns its path; `None`
     /// if there is no folder for reports. `doing`: action of the window at that time.
-    pub fn report(&mut self, fault: &Fault, doing: &str, content: Open<'_>) -> Option<Result<PathBuf, AppError>> {
+    pub fn report(&mut self, fault: &Fault, doing: &str, content: Content<'_>) -> Option<Result<PathBuf, AppError>> {
         let folder = self.faults.folder.clone()?;
         if let Some((_, path)) = self.faults.reported.iter().find(|(other, path)| other.is_same(fault) && path.exists())
         {
@@ -47,15 +48,16 @@ impl Session {
     }
 
     /// Handles an internal error on the window's thread, before the program ends: saves the session and writes the
-    /// report. `doing`: action of the window at that time.
-    pub fn end_at_fault(&mut self, doing: &str, content: Open<'_>) {
+    /// report. `jobs`: jobs that are running.
+    pub fn end_at_fault(&mut self, jobs: &[JobView], content: Content<'_>) {
         let keeper = self.autosave.take();
         // What is open was kept when the last frame ended; what this one has made of it is not to be trusted.
         if let Some(keeper) = &keeper {
             keeper.write_now();
         }
         let fault = fault::newest().unwrap_or_default();
-        let report = self.report(&fault, doing, content).and_then(Result::ok);
+        let doing = jobs.iter().fold("window".to_owned(), |text, job| text + "; " + job.lane.word().english());
+        let report = self.report(&fault, &doing, content).and_then(Result::ok);
         if let Some(path) = &report {
             fault::reported(&fault, path.clone());
         }

@@ -9,7 +9,7 @@ mod steps;
 
 pub use error::SessionError;
 pub use faults::copy_report;
-pub use snapshot::{Kept, Open, Put, Snapshot};
+pub use snapshot::{Content, ContentMut, Kept, Snapshot};
 
 use super::command::Command;
 use super::shell::Shell;
@@ -64,7 +64,7 @@ impl Session {
     }
 
     /// Passes the current session to the thread that stores it, if it has changed. Never waits.
-    pub fn keep(&mut self, content: Open<'_>, toasts: &mut Messages) {
+    pub fn keep(&mut self, content: Content<'_>, toasts: &mut Messages) {
         let Some(keeper) = &mut self.autosave else { return };
         keeper.keep(content);
         if let Some(problem) = keeper.problem() {
@@ -73,7 +73,7 @@ impl Session {
     }
 
     /// Saves the session at once; returns when it is on disk or cannot be written.
-    pub fn save_now(&mut self, content: Open<'_>, toasts: &mut Messages) {
+    pub fn save_now(&mut self, content: Content<'_>, toasts: &mut Messages) {
         self.keep(content, toasts);
         if let Some(keeper) = &self.autosave {
             keeper.write_now();
@@ -81,7 +81,7 @@ impl Session {
     }
 
     /// Stores the session a last time, and leaves it for the next start.
-    pub fn close(&mut self, content: Open<'_>) {
+    pub fn close(&mut self, content: Content<'_>) {
         if let Some(mut keeper) = self.autosave.take() {
             keeper.keep(content);
             keeper.close();

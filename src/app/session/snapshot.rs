@@ -35,7 +35,7 @@ pub struct KeptSystem {
 
 /// Parts of a window that a session stores.
 #[derive(Clone, Copy)]
-pub struct Open<'a> {
+pub struct Content<'a> {
     /// State of the window.
     pub state: &'a State,
     /// Imports, with drafts.
@@ -45,7 +45,7 @@ pub struct Open<'a> {
 }
 
 /// Parts of a new window in which a session is restored.
-pub struct Put<'a> {
+pub struct ContentMut<'a> {
     /// State of the window.
     pub state: &'a mut State,
     /// Imports.
@@ -81,7 +81,7 @@ fn sheet_word(sheet: Option<Sheet>) -> Option<&'static str> {
 
 impl Snapshot {
     /// Creates a snapshot of the current content of a window.
-    pub fn of(Open { state, imports, goniophotometer }: Open<'_>) -> Self {
+    pub fn of(Content { state, imports, goniophotometer }: Content<'_>) -> Self {
         let document = &state.document;
         Self {
             scene: SceneText(Some(Box::new(document.scene.clone()))),
@@ -99,7 +99,7 @@ impl Snapshot {
 
     /// Whether the snapshot equals the current content of the window. Called in every frame, so it compares without
     /// copying.
-    pub fn is_of(&self, Open { state, imports, goniophotometer }: Open<'_>) -> bool {
+    pub fn is_of(&self, Content { state, imports, goniophotometer }: Content<'_>) -> bool {
         let document = &state.document;
         self.scene.0.as_deref() == Some(&document.scene)
             && self.selection == document.selection
@@ -187,7 +187,7 @@ impl Kept {
     ///
     /// # Errors
     /// Returns a message if the scene cannot be read; everything else is restored nevertheless.
-    pub fn put_into(&self, Put { state, imports, goniophotometer }: Put<'_>) -> Result<(), String> {
+    pub fn put_into(&self, ContentMut { state, imports, goniophotometer }: ContentMut<'_>) -> Result<(), String> {
         state.settings = self.settings.clone();
         imports.take_up(self.drafts.clone());
         state.maximised =
@@ -214,12 +214,12 @@ mod tests {
         (State::new(Settings::default()), Imports::default(), Goniophotometer::default())
     }
 
-    const fn open((state, imports, goniophotometer): &(State, Imports, Goniophotometer)) -> Open<'_> {
-        Open { state, imports, goniophotometer }
+    const fn open((state, imports, goniophotometer): &(State, Imports, Goniophotometer)) -> Content<'_> {
+        Content { state, imports, goniophotometer }
     }
 
-    const fn put((state, imports, goniophotometer): &mut (State, Imports, Goniophotometer)) -> Put<'_> {
-        Put { state, imports, goniophotometer }
+    const fn put((state, imports, goniophotometer): &mut (State, Imports, Goniophotometer)) -> ContentMut<'_> {
+        ContentMut { state, imports, goniophotometer }
     }
 
     #[test]

@@ -73,7 +73,8 @@ pub fn seconds(text: &str) -> f64 {
 }
 
 impl Messages {
-    fn say(&mut self, weight: Weight, text: String, report: Option<PathBuf>) {
+    /// Shows a message, and returns its number.
+    fn say(&mut self, weight: Weight, text: String, report: Option<PathBuf>) -> u64 {
         self.next += 1;
         // What it quotes may come from any file.
         let text = short_numbers(&visible(&text)).into_owned();
@@ -84,6 +85,7 @@ impl Messages {
         while self.list.len() > MOST {
             self.list.pop_front();
         }
+        self.next
     }
 
     /// Shows a note.
@@ -91,9 +93,9 @@ impl Messages {
         self.say(Weight::Info, text.into(), None);
     }
 
-    /// Shows the confirmation of a successful action.
-    pub fn success(&mut self, text: impl Into<String>) {
-        self.say(Weight::Success, text.into(), None);
+    /// Shows the confirmation of a successful action, and returns its number.
+    pub fn success(&mut self, text: impl Into<String>) -> u64 {
+        self.say(Weight::Success, text.into(), None)
     }
 
     /// Shows a warning.

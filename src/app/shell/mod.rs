@@ -55,25 +55,25 @@ pub struct Shell {
     /// Latest results of the computations.
     pub results: Results,
     /// Services that the window uses.
-    pub services: Services,
+    pub(in crate::app) services: Services,
     /// Library of the files and products that system files name.
-    pub library: Arc<Library>,
+    pub(in crate::app) library: Arc<Library>,
     /// Running jobs.
-    pub jobs: Jobs<Outcome>,
+    pub(in crate::app) jobs: Jobs<Outcome>,
     /// Changes of the catalogue that wait until earlier ones are complete, in their order.
     pending_changes: VecDeque<CatalogueChange>,
     /// Undo history of the document.
-    pub undoer: Undoer<Document>,
+    pub(in crate::app) undoer: Undoer<Document>,
     /// Document for which results were last requested, and the language of their texts; `None` to request them again.
-    pub asked: Option<(Document, Language)>,
+    pub(in crate::app) asked: Option<(Document, Language)>,
     /// Messages to the user.
     pub toasts: Messages,
     /// Tiles of the tile area.
-    pub bench: Bench,
+    pub(in crate::app) bench: Bench,
     /// Context of egui, by which jobs wake the window.
-    pub ctx: egui::Context,
+    pub(in crate::app) ctx: egui::Context,
     /// Language of the desktop, for the setting that the window uses it.
-    pub desktop_language: Language,
+    pub(in crate::app) desktop_language: Language,
 }
 
 /// Returns an undo history that starts with this document.
@@ -166,6 +166,11 @@ impl Shell {
     pub fn queue(&mut self, change: impl FnOnce(&dyn Shelf) -> Outcome + Send + 'static) {
         self.pending_changes.push_back(Box::new(change));
         self.start_pending_change();
+    }
+
+    /// Lets all results be requested again, since something changed that the document does not hold.
+    pub fn ask_again(&mut self) {
+        self.asked = None;
     }
 
     /// Whether changes of the catalogue wait for earlier ones.

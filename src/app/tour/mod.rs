@@ -60,7 +60,7 @@ impl Tour {
     }
 
     /// Whether the tour or its offer is shown.
-    pub const fn speaks(&self) -> bool {
+    pub const fn is_shown(&self) -> bool {
         self.running.is_some() || self.offered
     }
 

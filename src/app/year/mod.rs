@@ -21,12 +21,12 @@ use std::path::{Path, PathBuf};
 
 /// Annual simulation of the window, except its result.
 #[derive(Default)]
-pub struct AnnualSimulation {
+pub struct CalendarRequest {
     /// Key of the calendar of weather data that was last requested.
     asked_weather: Option<CalendarKey>,
 }
 
-impl AnnualSimulation {
+impl CalendarRequest {
     /// Starts reading the weather file from which hours are chosen, if the scene names another one than before.
     pub fn ask_weather(&mut self, shell: &mut Shell) {
         let scene = &shell.state.document.scene;
