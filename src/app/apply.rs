@@ -1,7 +1,7 @@
 //! Execution of commands: each goes to the feature that it is about. What concerns several (undo, paths, stopping) stands
 //! here.
 
-use super::catalogue::CatalogueCommand;
+use super::catalogue::command::CatalogueCommand;
 use super::command::Command;
 use super::compare::find_like;
 use super::export::choices::What;

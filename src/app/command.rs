@@ -1,14 +1,15 @@
 //! All commands of the window in one enum. Drawing functions return them, [`super::apply`] executes them, and
 //! [`super::offer`] lists those in menus, command palette and keyboard shortcuts.
 
-use super::compare::Act;
-use super::goniophotometer::Setup;
-use super::import::{ImportFields, StateWords, Step};
-use super::rank::ChooseAct;
+use super::compare::view::Act;
+use super::goniophotometer::run::Setup;
+use super::import::proposal::{ImportFields, StateWords};
+use super::import::step::Step;
+use super::rank::board::ChooseAct;
 use super::state::{PathUse, Sheet, Tile};
-use super::tour::TourAct;
-use super::year::YearAct;
-use crate::app::catalogue::CatalogueCommand;
+use super::tour::step::TourAct;
+use super::year::input::YearAct;
+use crate::app::catalogue::command::CatalogueCommand;
 use crate::app::catalogue::shelf::Query;
 use crate::app::display::language::LanguageChoice;
 use crate::app::display::text_size::TextSize;

@@ -3,15 +3,15 @@
 //! [`super::apply`].
 
 use super::command::{Command, SYSTEM_EDITOR};
-use super::compare::{Act, Look};
-use super::goniophotometer::EXAMPLES;
-use super::rank::ChooseAct;
+use super::compare::view::{Act, Look};
+use super::goniophotometer::examples::EXAMPLES;
+use super::rank::board::ChooseAct;
 use super::state::{self, PathUse};
 use super::tiles::TILES;
-use super::tour::TourAct;
+use super::tour::step::TourAct;
 use super::views::btdf::form_words;
-use super::year::YearAct;
-use crate::app::catalogue::CatalogueCommand;
+use super::year::input::YearAct;
+use crate::app::catalogue::command::CatalogueCommand;
 use crate::app::display::language::LanguageChoice;
 use crate::app::display::text_size::TextSize as Size;
 use crate::app::display::theme::ThemeChoice;

@@ -1,11 +1,11 @@
 //! State of the window: the document, which undo covers; settings, which are stored; results and display states, which
 //! are neither.
 
-use super::compare::View;
-use super::rank::{Figures, Pace};
+use super::compare::view::View;
+use super::rank::board::{Figures, Pace};
 use super::results::data_looks::{DataLook, FormResult, SchemesResult};
 use super::scene::{Selection, first_scene, kept_scene, rule, selection_of};
-use super::year::Calendar;
+use super::year::input::Calendar;
 use crate::app::catalogue::shelf::{Found, Query, Sets, Shelf};
 use crate::app::results::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use crate::app::scene::control::{Year, YearKey};

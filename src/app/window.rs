@@ -1,8 +1,9 @@
 //! The window of the program, composed of its features.
 
+use super::catalogue::Products;
+use super::catalogue::built_in::BuiltIn;
 use super::catalogue::gallery::Gallery;
-use super::catalogue::{BuiltIn, Products};
-use super::compare::Columns;
+use super::compare::columns::Columns;
 use super::export::Export;
 use super::goniophotometer::Goniophotometer;
 use super::import::Imports;

@@ -3,7 +3,7 @@
 use crate::driven::{Idle, apply, coarsen, frames, harness, services, settle, step_until};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::compare::{Act, Look};
+use cfs::app::compare::view::{Act, Look};
 use cfs::app::display::language::LanguageChoice;
 use cfs::app::results::backend::{ideals_shelf, memory_shelf};
 use cfs::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures};

@@ -3,7 +3,7 @@
 use crate::driven::{Idle, apply, frames, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::import::Import;
+use cfs::app::import::proposal::Import;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::catalogue::Grouping;
 use egui::accesskit::Role;
@@ -38,7 +38,8 @@ pub fn import<'a>(harness: &'a Harness<'_, App>) -> &'a Import {
 
 /// Products with the keys of their states.
 pub fn proposed(harness: &Harness<'_, App>) -> Vec<(String, Vec<String>)> {
-    let keys = |product: &cfs::app::import::Proposed| product.datasets.iter().map(|one| one.state.clone()).collect();
+    let keys =
+        |product: &cfs::app::import::proposal::Proposed| product.datasets.iter().map(|one| one.state.clone()).collect();
     import(harness).products.iter().map(|product| (product.fields.name.clone(), keys(product))).collect()
 }
 
@@ -114,8 +115,10 @@ fn unlike_files_become_products_of_their_own_and_can_be_taken_otherwise_before_t
     // What was typed stays with the files that it was typed for.
     harness.get_by_label("By angle").click();
     settle(&mut harness);
-    let fields =
-        cfs::app::import::ImportFields { name: "My fabric".into(), ..import(&harness).products[1].fields.clone() };
+    let fields = cfs::app::import::proposal::ImportFields {
+        name: "My fabric".into(),
+        ..import(&harness).products[1].fields.clone()
+    };
     apply(&mut harness, Command::EditImport(1, Box::new(fields)));
     apply(&mut harness, Command::GroupImport(Grouping::Each));
     assert!(proposed(&harness).iter().any(|one| one.0 == "My fabric"));
@@ -380,7 +383,7 @@ fn what_was_open_is_restored_after_a_kill_and_told_once() {
     apply(&mut harness, Command::EditSystem("name = \"half typed".to_owned()));
     apply(&mut harness, Command::OpenPaths(four(files.path())));
     apply(&mut harness, Command::GroupImport(Grouping::Each));
-    let fields = cfs::app::import::ImportFields { name: "Half named".into(), ..Default::default() };
+    let fields = cfs::app::import::proposal::ImportFields { name: "Half named".into(), ..Default::default() };
     apply(&mut harness, Command::EditImport(2, Box::new(fields)));
     wait_for(folder.path(), "Half named");
     let title = cfs::app::title::title(&harness.state().shell.state);

@@ -2,7 +2,7 @@
 
 use crate::driven::{apply, coarsen, frames, settle};
 use cfs::app::App;
-use cfs::app::catalogue::CatalogueCommand;
+use cfs::app::catalogue::command::CatalogueCommand;
 use cfs::app::catalogue::shelf::{Addition, Query};
 use cfs::app::command::Command;
 use cfs::app::results::backend::{StudyEngine, memory_shelf};

@@ -3,7 +3,7 @@
 use crate::driven::{Idle, frames_in, step_until};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::goniophotometer::{Emergence, Incidence, Setup};
+use cfs::app::goniophotometer::run::{Emergence, Incidence, Setup};
 use cfs::app::shell::jobs::Lane;
 use cfs::app::state::{PathUse, Sheet};
 use cfs::catalogue::{Catalogue, Origin};
@@ -142,7 +142,7 @@ fn a_stopped_run_goes_on_after_its_finished_states() {
 fn files_open_the_sheet_and_packages_come_out() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("screen.system.toml");
-    std::fs::write(&file, cfs::app::goniophotometer::EXAMPLES[8].text).unwrap();
+    std::fs::write(&file, cfs::app::goniophotometer::examples::EXAMPLES[8].text).unwrap();
     let mut harness = window(Theme::Dark);
     harness.state_mut().apply(Command::OpenPaths(vec![file]));
     wait(&mut harness, |app| app.shell.state.sheet == Some(Sheet::Goniophotometer));
@@ -176,7 +176,7 @@ fn files_open_the_sheet_and_packages_come_out() {
 fn both_themes_draw_every_example() {
     for theme in [Theme::Light, Theme::Dark] {
         let mut harness = window(theme);
-        for number in 0..cfs::app::goniophotometer::EXAMPLES.len() {
+        for number in 0..cfs::app::goniophotometer::examples::EXAMPLES.len() {
             harness.state_mut().apply(Command::SystemExample(number));
             harness.run_steps(3);
             let rect = harness.get_by_role_and_label(Role::Image, "Section").rect();

@@ -3,7 +3,7 @@
 use crate::driven::{apply, coarsen, frames, select, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
-use cfs::app::compare::Act;
+use cfs::app::compare::view::Act;
 use cfs::app::display::language::LanguageChoice;
 use cfs::app::export::choices::{Choices, Preview, ReportKind, What};
 use cfs::app::results::backend::{StudyEngine, memory_shelf};

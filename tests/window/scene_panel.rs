@@ -2,7 +2,7 @@
 
 use crate::driven::{Idle, apply, coarsen, frames, services, settle};
 use cfs::app::command::Command;
-use cfs::app::compare::Act;
+use cfs::app::compare::view::Act;
 use cfs::app::results::backend::{StudyEngine, memory_shelf};
 use cfs::app::shell::messages::Message;
 use cfs::app::state::{PathUse, Settings, State};

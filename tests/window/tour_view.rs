@@ -4,7 +4,7 @@ use crate::driven::{Idle, apply, frames, settle};
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::state::Sheet;
-use cfs::app::tour::{Stop, TourAct};
+use cfs::app::tour::step::{Stop, TourAct};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

@@ -9,7 +9,7 @@ use cfs::app::results::backend::{StudyEngine, ideals_shelf};
 use cfs::app::scene::moment;
 use cfs::app::shell::jobs::Lane;
 use cfs::app::tiles::YEAR;
-use cfs::app::year::YearAct;
+use cfs::app::year::input::YearAct;
 use cfs::report::TileKind;
 use cfs::study::scene_file::SkyModelKey;
 use cfs::study::weather::YEARS;

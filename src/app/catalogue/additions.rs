@@ -31,7 +31,7 @@ impl Products {
         let mut numbered = Vec::new();
         for addition in additions {
             let number = self.additions.len();
-            self.additions.push(Added { addition: addition.clone(), key: None, said: None });
+            self.additions.push(Added { addition: addition.clone(), key: None, message: None });
             shell.state.document.additions.push(number);
             numbered.push((number, addition));
         }
@@ -79,7 +79,7 @@ impl Products {
                 (new, known) => shell::added_some(new, known),
             };
             let message = shell.toasts.success(what);
-            numbers.iter().for_each(|number| self.additions[*number].said = Some(message));
+            numbers.iter().for_each(|number| self.additions[*number].message = Some(message));
             // The step that added it also shows it.
             let (rule, place) = first.representative();
             let state = first.states.get(place).filter(|_| first.states.len() > 1);
@@ -105,7 +105,7 @@ impl Products {
         for &number in gone {
             let addition = &mut self.additions[number];
             // What it says how to undo is undone.
-            addition.said.take().into_iter().for_each(|message| shell.toasts.dismiss(Some(message)));
+            addition.message.take().into_iter().for_each(|message| shell.toasts.dismiss(Some(message)));
             keys.extend(addition.key.take());
         }
         if !keys.is_empty() {

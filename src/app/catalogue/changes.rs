@@ -1,7 +1,7 @@
 //! Undoable changes to products of the catalogue, and the data of the sheet (side panel) in which they are made.
 
 use crate::app::catalogue::shelf::{Addition, Shelf};
-use crate::app::import::{ImportFields, StateWords};
+use crate::app::import::proposal::{ImportFields, StateWords};
 use crate::app::shell::error::AppError;
 use crate::catalogue::{Event, Product, Replacement, Snapshot, StateName, Words};
 use crate::texts::catalogue as text;
@@ -14,7 +14,7 @@ pub(super) struct Added {
     /// Key of the product in the catalogue; `None` while it is not there.
     pub(super) key: Option<String>,
     /// Number of the message that says that it was added, if there was one.
-    pub(super) said: Option<u64>,
+    pub(super) message: Option<u64>,
 }
 
 /// Change of the catalogue, stored so that undo can revert it and redo make it again.

@@ -2,23 +2,18 @@
 //! collections, subscriptions (undo covers all of it); and what shows and fills it.
 
 mod additions;
-mod built_in;
-mod changes;
-mod command;
+pub mod built_in;
+pub mod changes;
+pub mod command;
 pub mod gallery;
 pub mod library;
 mod pictures;
 mod sets;
 pub mod shelf;
 mod states;
-mod states_in_progress;
+pub mod states_in_progress;
 
-pub use built_in::BuiltIn;
-pub use changes::{Change, Editing, Looked, Reread};
-pub use command::CatalogueCommand;
-pub use states_in_progress::StatesInProgress;
-
-use super::import::ImportFields;
+use super::import::proposal::ImportFields;
 use super::shell::Shell;
 use super::state::{Document, Sheet};
 use crate::app::results::work::Outcome;
@@ -28,7 +23,7 @@ use crate::app::shell::jobs::Lane;
 use crate::catalogue::Deleted;
 use crate::study::subscriptions::Report;
 use crate::texts::catalogue as text;
-use changes::Added;
+use changes::{Added, Change, Editing, Looked};
 use std::collections::BTreeSet;
 
 /// Products as this session has changed them, and what the window knows about sets of them.

@@ -4,7 +4,7 @@
 use super::Products;
 use super::changes::{Change, Editing, Reread};
 use super::shelf::Shelf;
-use crate::app::import::StateWords;
+use crate::app::import::proposal::StateWords;
 use crate::app::results::work::{Outcome, ReadDataset};
 use crate::app::shell::Shell;
 use crate::app::shell::disk::read_bytes;

@@ -2,7 +2,7 @@
 //! that every tile can draw it. Results are stored while the candidate's scene is unchanged; only visible ones are
 //! computed.
 
-use crate::app::compare::Part;
+use crate::app::compare::view::Part;
 use crate::app::results::work::{Compared, LoadedSelection};
 use crate::app::scene::control::YearKey;
 use crate::app::scene::incidence::Incidence;

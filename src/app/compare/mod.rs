@@ -1,11 +1,8 @@
 //! Execution of commands about the comparison: its list, the computation of candidates, and commands from the tiles of
 //! a candidate.
 
-mod columns;
-mod view;
-
-pub use columns::{Column, Columns, PictureKey, ScaleKey};
-pub use view::{Act, Look, Part, View};
+pub mod columns;
+pub mod view;
 
 use crate::app::catalogue::library::WindowLibrary;
 use crate::app::command::Command;
@@ -30,7 +27,9 @@ use crate::study::scene_file::{CompareKeys, ControlMode, SceneFile, SystemKeys};
 use crate::study::system::Need;
 use crate::study::{Library, Scene, SystemLibrary as _};
 use crate::texts::{Language, compare as texts, language};
+use columns::{Column, Columns};
 use std::sync::Arc;
+use view::{Act, Look, Part, View};
 
 /// Returns the entry of a candidate that shows the same as a document, with the given name.
 fn keys_of(document: &Document, name: String) -> CompareKeys {

@@ -2,11 +2,8 @@
 //!
 //! Every state is computed by a separate job, so that finished ones are shown at once and stay when the run is stopped.
 
-mod examples;
-mod run;
-
-pub use examples::EXAMPLES;
-pub use run::{Emergence, Finished, Incidence, Run, Setup};
+pub mod examples;
+pub mod run;
 
 use super::shell::Shell;
 use super::state::Sheet;
@@ -19,7 +16,8 @@ use crate::compute::system::SystemKind;
 use crate::study::Library;
 use crate::study::goniophotometer::{Base, Described};
 use crate::texts::goniophotometer as texts;
-use run::{next_state, product, targets};
+use examples::EXAMPLES;
+use run::{Finished, Run, Setup, next_state, product, targets};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 

@@ -2,13 +2,10 @@
 //! over what is to be stored.
 
 mod arranging;
-mod proposal;
+pub mod proposal;
 mod reading;
-mod step;
+pub mod step;
 mod table;
-
-pub use proposal::{Import, ImportFields, KeptImport, Proposed, Row, StateWords, number};
-pub use step::{Choose, Step, Word};
 
 use super::shell::Shell;
 use super::state::{CatalogueState, Sheet};
@@ -19,7 +16,7 @@ use crate::catalogue::Grouping;
 use crate::compute::doctor::Repair;
 use crate::texts::import as text;
 use arranging::repair_product;
-use proposal::{Arranged, file_id};
+use proposal::{Arranged, Import, ImportFields, KeptImport, Proposed, file_id};
 use reading::{Asked, read_files};
 use std::path::PathBuf;
 

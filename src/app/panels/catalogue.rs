@@ -7,7 +7,7 @@ mod list;
 mod menu;
 mod names;
 
-use crate::app::catalogue::CatalogueCommand;
+use crate::app::catalogue::command::CatalogueCommand;
 use crate::app::catalogue::gallery::Gallery;
 use crate::app::catalogue::shelf::Query;
 use crate::app::command::Command;

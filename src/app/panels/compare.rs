@@ -8,7 +8,7 @@ mod figures;
 mod places;
 
 use crate::app::command::Command;
-use crate::app::compare::{Act, Look};
+use crate::app::compare::view::{Act, Look};
 use crate::app::display::theme;
 use crate::app::state::State;
 use crate::app::tiles;

@@ -3,8 +3,9 @@
 
 use crate::app::command::{Command, SYSTEM_EDITOR};
 use crate::app::display::theme;
-use crate::app::goniophotometer::EXAMPLES;
-use crate::app::goniophotometer::{Emergence, Goniophotometer, Incidence, Run};
+use crate::app::goniophotometer::Goniophotometer;
+use crate::app::goniophotometer::examples::EXAMPLES;
+use crate::app::goniophotometer::run::{Emergence, Incidence, Run};
 use crate::app::offer;
 use crate::app::scene::facing::sun_incident;
 use crate::app::shell::jobs::Lane;

@@ -6,7 +6,9 @@ mod findings;
 mod table;
 
 use crate::app::command::Command;
-use crate::app::import::{Import, Imports, Proposed, Step, number};
+use crate::app::import::Imports;
+use crate::app::import::proposal::{Import, Proposed, number};
+use crate::app::import::step::Step;
 use crate::catalogue::Grouping;
 use crate::texts::import as text;
 use egui::{ScrollArea, Ui};

@@ -1,9 +1,9 @@
 //! Side panels about stored products: editing of their texts and states, and the list of deleted products.
 
-use crate::app::catalogue::Editing;
+use crate::app::catalogue::changes::Editing;
 use crate::app::command::Command;
 use crate::app::display::theme;
-use crate::app::import::ImportFields;
+use crate::app::import::proposal::ImportFields;
 use crate::app::shell::clock;
 use crate::app::state::Sheet;
 use crate::catalogue::Deleted;

@@ -1,6 +1,6 @@
 //! Side panels about sets of products: collections made by the user, and subscribed folders of packages.
 
-use crate::app::catalogue::CatalogueCommand;
+use crate::app::catalogue::command::CatalogueCommand;
 use crate::app::catalogue::shelf::Query;
 use crate::app::command::Command;
 use crate::app::state::State;

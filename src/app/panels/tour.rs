@@ -5,7 +5,7 @@ use crate::app::command::Command;
 use crate::app::display::theme;
 use crate::app::state::Tile;
 use crate::app::tiles::{LID, ROOM, SKY};
-use crate::app::tour::{Stop, TourAct};
+use crate::app::tour::step::{Stop, TourAct};
 use crate::app::window::App;
 use crate::texts::commands::{COMPARE, FILE};
 use crate::texts::{Text, shell};

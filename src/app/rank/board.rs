@@ -1,7 +1,7 @@
 //! Ranking of products for a façade in the window: input, results per product, progress.
 
 use crate::app::catalogue::shelf::Query;
-use crate::app::year::usual_year;
+use crate::app::year::input::usual_year;
 use crate::catalogue::Product;
 use crate::study::StudyError;
 use crate::study::inputs::names_files;

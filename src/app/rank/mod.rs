@@ -1,10 +1,7 @@
 //! Ranking in the window: products are computed in a job, results are shown as they become available, and the chosen
 //! product can be used in the room.
 
-mod board;
-
-pub use board::{Asked, ChooseAct, Figures, Pace, objectives_of};
-use board::{Asking, Board, figures_of, ranked_apertures};
+pub mod board;
 
 use crate::app::catalogue::shelf::Shelf;
 use crate::app::results::engine::Engine;
@@ -16,7 +13,7 @@ use crate::app::shell::error::AppError;
 use crate::app::shell::jobs::{JobState, Lane};
 use crate::app::state::{Sheet, State};
 use crate::app::tiles;
-use crate::app::year::usual_year;
+use crate::app::year::input::usual_year;
 use crate::catalogue::Product;
 use crate::compute::estimate::Progress;
 use crate::study::StudyError;
@@ -25,6 +22,7 @@ use crate::study::rank::{Answer, Item, Known, Shard, Shortlist, Stage, Store, ke
 use crate::study::rank_keys::{ObjectiveKeys, RankControlKey, RankKeys};
 use crate::study::scene_file::SystemKeys;
 use crate::texts::{choose as say, shell, year as of_year};
+use board::{Asked, Asking, Board, ChooseAct, Figures, figures_of, objectives_of, ranked_apertures};
 use std::sync::Arc;
 
 /// Number of earlier rankings whose results are stored.

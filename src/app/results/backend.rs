@@ -1,9 +1,9 @@
 //! Implementations of the window's interfaces by the real program: catalogue file, computations of the study, luminaire
 //! files.
 
-use crate::app::catalogue::StatesInProgress;
 use crate::app::catalogue::library::WindowLibrary;
 use crate::app::catalogue::shelf::{Addition, Found, Query, Shelf};
+use crate::app::catalogue::states_in_progress::StatesInProgress;
 use crate::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
 use crate::app::shell::error::AppError;
 use crate::catalogue::{

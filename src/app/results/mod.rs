@@ -14,7 +14,7 @@ mod looking;
 pub use examined::Examined;
 pub use looking::DataForms;
 
-use super::catalogue::BuiltIn;
+use super::catalogue::built_in::BuiltIn;
 use super::shell::Shell;
 use super::state::{Daylight, Document, Sheet, Shown};
 use super::tiles;

@@ -1,12 +1,12 @@
 //! Work that is executed in jobs, and the results of jobs.
 
+use crate::app::catalogue::changes::{Change, Looked, Reread};
 use crate::app::catalogue::gallery::Made;
 use crate::app::catalogue::shelf::{Found, Sets, Shelf};
-use crate::app::catalogue::{Change, Looked, Reread};
-use crate::app::compare::Part;
+use crate::app::compare::view::Part;
 use crate::app::export::choices::Preview;
-use crate::app::goniophotometer::Finished;
-use crate::app::import::{Import, Proposed};
+use crate::app::goniophotometer::run::Finished;
+use crate::app::import::proposal::{Import, Proposed};
 use crate::app::results::data_looks::{FormResult, SchemesResult};
 use crate::app::results::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
 use crate::app::scene::control::Year;
@@ -15,7 +15,7 @@ use crate::app::scene::{Selection, rule};
 use crate::app::shell::disk::write_whole;
 use crate::app::shell::error::AppError;
 use crate::app::state::{Daylight, PathUse, Tile};
-use crate::app::year::Calendar;
+use crate::app::year::input::Calendar;
 use crate::catalogue::{Deleted, Product};
 use crate::compute::angle::Bearing;
 use crate::compute::btdf::Dataset;

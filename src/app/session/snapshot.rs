@@ -3,7 +3,8 @@
 
 use super::error::SessionError;
 use crate::app::goniophotometer::Goniophotometer;
-use crate::app::import::{Imports, KeptImport};
+use crate::app::import::Imports;
+use crate::app::import::proposal::KeptImport;
 use crate::app::scene::Selection;
 use crate::app::state::{Settings, Sheet, State};
 use crate::app::tiles::TILES;

@@ -2,14 +2,14 @@
 
 use super::drawn::{Drawn, TileInput};
 use crate::app::command::Command;
-use crate::app::compare::Act;
+use crate::app::compare::view::Act;
 use crate::app::paint::tile::Status;
-use crate::app::rank::{ChooseAct, Figures, objectives_of};
+use crate::app::rank::board::{ChooseAct, Figures, objectives_of};
 use crate::app::shell::jobs::Lane;
 use crate::app::state::{State, Tile};
 use crate::app::title;
 use crate::app::views::{Cache, choose as view};
-use crate::app::year::{usual_year, weather_of_year};
+use crate::app::year::input::{usual_year, weather_of_year};
 use crate::catalogue::Filter;
 use crate::study::rank::{Reason, Shortlist, Stage, figure_words, offered};
 use crate::study::rank_keys::ObjectiveKeys;

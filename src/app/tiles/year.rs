@@ -8,7 +8,7 @@ use crate::app::shell::jobs::Lane;
 use crate::app::state::Tile;
 use crate::app::title;
 use crate::app::views::{Cache, year as view};
-use crate::app::year::{YearAct, weather_of_year};
+use crate::app::year::input::{YearAct, weather_of_year};
 use crate::drawing::hour_map::HourMap;
 use crate::study::weather::warning_words;
 use crate::study::year::{Annual, Day, Look, Row, day, map, months, sunniest, table};

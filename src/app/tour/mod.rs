@@ -1,15 +1,14 @@
 //! Introductory tour of the window in five steps on the user's content: the user executes each step in the window,
 //! which is not blocked.
 
-mod step;
-
-pub use step::{Stop, TourAct};
+pub mod step;
 
 use super::shell::Shell;
 use super::state::{Sheet, State};
 use super::tiles::{LID, ROOM, SKY};
 use crate::study::scene_file::{SceneFile, TimeKey};
 use crate::texts::shell;
+use step::{Stop, TourAct};
 
 /// Values of the window by whose changes a finished step of the tour is recognised.
 struct Seen {

@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn three_periods_stand_one_above_the_other() {
-        let text = crate::app::goniophotometer::EXAMPLES[0].text;
+        let text = crate::app::goniophotometer::examples::EXAMPLES[0].text;
         let system = crate::formats::system_toml::read(text.as_bytes()).unwrap().system;
         let outlines = stacked(&system, 2);
         assert_eq!(outlines.len(), 3);

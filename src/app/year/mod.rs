@@ -1,11 +1,6 @@
 //! Annual simulation in the window: executes its commands, starts its job, reads the weather file.
 
-mod input;
-
-pub use input::{
-    Calendar, CalendarKey, YearAct, put_record, station_words, usual_eye, usual_lamps, usual_year, weather_of,
-    weather_of_year,
-};
+pub mod input;
 
 use crate::app::results::engine::Question;
 use crate::app::results::work::Outcome;
@@ -16,6 +11,7 @@ use crate::app::tiles;
 use crate::study::sun_position::parse_local_time;
 use crate::study::year::at_step;
 use crate::texts::{shell, year as say};
+use input::{Calendar, CalendarKey, YearAct, put_record, usual_year, weather_of};
 use jiff::civil::date;
 use std::path::{Path, PathBuf};
 

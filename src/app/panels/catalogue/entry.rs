@@ -4,7 +4,7 @@
 use super::menu;
 use crate::app::catalogue::shelf::{Entry, Found};
 use crate::app::command::Command;
-use crate::app::compare::Act;
+use crate::app::compare::view::Act;
 use crate::app::display::theme;
 use crate::app::state::State;
 use crate::catalogue::Sort;

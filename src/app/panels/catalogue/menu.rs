@@ -1,9 +1,9 @@
 //! Menu that a right click on a product of the catalogue opens.
 
-use crate::app::catalogue::CatalogueCommand;
+use crate::app::catalogue::command::CatalogueCommand;
 use crate::app::catalogue::shelf::Entry;
 use crate::app::command::Command;
-use crate::app::compare::Act;
+use crate::app::compare::view::Act;
 use crate::app::state::Sheet;
 use crate::catalogue::Collection;
 use crate::texts::catalogue as text;

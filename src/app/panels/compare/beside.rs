@@ -2,8 +2,8 @@
 
 use super::places::{kind, missing, places, tile};
 use crate::app::command::Command;
-use crate::app::compare::{Act, Part};
-use crate::app::compare::{Column, Columns};
+use crate::app::compare::columns::{Column, Columns};
+use crate::app::compare::view::{Act, Part};
 use crate::app::display::theme;
 use crate::app::paint;
 use crate::app::paint::colour_scale::{ColourScale, ColourScaleExt as _, LEGEND_HEIGHT};

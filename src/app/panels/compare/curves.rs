@@ -1,7 +1,7 @@
 //! Curves of all candidates in the same plot, distinguished by colour and dashes.
 
 use super::places::{kind, short, tile_words};
-use crate::app::compare::{Column, Columns};
+use crate::app::compare::columns::{Column, Columns};
 use crate::app::paint::palette::Palette;
 use crate::app::paint::plot::{self, Look};
 use crate::app::paint::tile;

@@ -1,7 +1,7 @@
 //! Difference of each candidate's results from those of the reference candidate, with sign, all with one colour scale.
 
 use super::places::{kind, missing, places, short};
-use crate::app::compare::{Column, Columns};
+use crate::app::compare::columns::{Column, Columns};
 use crate::app::display::theme;
 use crate::app::paint::hemisphere::Side;
 use crate::app::paint::tile::Status;

@@ -2,7 +2,7 @@
 //! difference exceeds the errors.
 
 use crate::app::command::Command;
-use crate::app::compare::Act;
+use crate::app::compare::view::Act;
 use crate::app::display::theme;
 use crate::app::window::App;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};

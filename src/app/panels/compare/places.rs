@@ -1,7 +1,7 @@
 //! Parts shared by the kinds of comparison: the compared tile, the rectangles of the candidates' tiles, and the text in
 //! place of a missing picture.
 
-use crate::app::compare::Column;
+use crate::app::compare::columns::Column;
 use crate::app::state::{State, Tile};
 use crate::app::tiles::TILES;
 use crate::report::TileKind;

@@ -3,7 +3,8 @@
 
 use super::findings::{counts, diagnoses, picture, repair_words, seen};
 use crate::app::command::Command;
-use crate::app::import::{Import, Proposed, Row, Step, Word, number};
+use crate::app::import::proposal::{Import, Proposed, Row, number};
+use crate::app::import::step::{Step, Word};
 use crate::compute::btdf::Severity;
 use crate::compute::doctor::{Repair, RepairKind};
 use crate::texts::{fixed, import as text};

@@ -2,7 +2,7 @@
 //! light, which shows whether the orientation of the data is right.
 
 use crate::app::display::theme;
-use crate::app::import::number;
+use crate::app::import::proposal::number;
 use crate::app::state::State;
 use crate::compute::btdf::{Dataset, Severity};
 use crate::compute::doctor::{Diagnosis, Repair, RepairKind, Ways};

@@ -4,7 +4,8 @@
 use super::findings::{counts, worst};
 use crate::app::command::Command;
 use crate::app::display::theme::{self, Palette};
-use crate::app::import::{Choose, Import, Proposed, Row, StateWords, Step, number};
+use crate::app::import::proposal::{Import, Proposed, Row, StateWords, number};
+use crate::app::import::step::{Choose, Step};
 use crate::catalogue::Ambiguity;
 use crate::compute::btdf::Severity;
 use crate::texts::{Text, fixed, import as text};

@@ -8,7 +8,7 @@ use crate::app::shell::typed_path::typed_path;
 use crate::app::state::Shown;
 use crate::app::title::coordinates;
 use crate::app::views::calendar;
-use crate::app::year::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
+use crate::app::year::input::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
 use crate::compute::weather::Station;
 use crate::study::moment;
 use crate::study::places::{nearest, summer_time};
