@@ -356,6 +356,8 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Command> {
     let mut list: Vec<(KeyboardShortcut, &Command)> = offers()
         .iter()
         .filter_map(|offer| Some((offer.keys?, &offer.command)))
+        // Half of the desktops know it by this key.
+        .chain([(KeyboardShortcut::new(CTRL, Key::Y), &Command::Redo)])
         .filter(|(keys, _)| !typing || keys.modifiers.command)
         .filter(|(_, command)| !(editing && matches!(command, Command::Undo | Command::Redo)))
         .collect();
