@@ -13,14 +13,14 @@ pub fn wide<R>(work: impl FnOnce() -> R) -> R {
 }
 
 /// Returns Σ a·b.
-pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub fn dot<T: Copy + Into<f64>>(a: &[T], b: &[f64]) -> f64 {
     wide(|| {
         let mut sums = [0.0; SUMS];
         let (whole_a, whole_b) = (a.chunks_exact(SUMS), b.chunks_exact(SUMS));
-        let rest: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| a * b).sum();
+        let rest: f64 = whole_a.remainder().iter().zip(whole_b.remainder()).map(|(a, b)| (*a).into() * b).sum();
         for (a, b) in whole_a.zip(whole_b) {
             for k in 0..SUMS {
-                sums[k] += a[k] * b[k];
+                sums[k] += a[k].into() * b[k];
             }
         }
         let four: [f64; 4] = std::array::from_fn(|k| (sums[k] + sums[k + 4]) + (sums[k + 8] + sums[k + 12]));

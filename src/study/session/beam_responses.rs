@@ -72,7 +72,7 @@ impl BeamResponses {
                 for (k, (f, c)) in once.iter().zip(&by_coarse).enumerate() {
                     later[k] -= f + (f - c) / 3.0;
                     seen[k] += f;
-                    put(walls[s] + w, k, sensor.walls[w][k] - (f - c));
+                    put(walls[s] + w, k, f64::from(sensor.walls[w][k]) - (f - c));
                 }
             }
             for (k, (later, seen)) in later.iter().zip(&seen).enumerate() {

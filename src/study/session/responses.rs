@@ -85,7 +85,8 @@ impl Session {
         enough_is_absorbed(&radiosity.nested.fine, reflectance)?;
         check(progress)?;
         // A value and its uncertainty, by walls, for every patch and sensor.
-        let each = (1 + radiosity.nested.fine.walls.len()) * radiosity.nested.fine.patches.len() * size_of::<f64>();
+        let fine = &radiosity.nested.fine;
+        let each = fine.patches.len() * (size_of::<f64>() + fine.walls.len() * size_of::<f32>());
         within_budget(scene, each)?;
         let key = room_key(scene, count);
         let sensor_key: Key = sensor_key(scene).collect();
@@ -135,7 +136,7 @@ fn weights_of(
                 for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
                     *sum += f + d / 3.0;
                 }
-                response.walls.push(difference);
+                response.walls.push(difference.into_iter().map(|d| d as f32).collect());
             }
             response
         };
@@ -167,10 +168,10 @@ impl Responses {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let cell = |c: usize| {
                 let value = room.value[s][c] + added.map_or(0.0, |added| share * added.value[c]);
-                let walls = room.walls.get(s).map_or(&[][..], |walls| walls);
-                let gap =
-                    |(w, wall): (usize, &Vec<f64>)| wall[c] + added.map_or(0.0, |added| share * added.walls[w][c]);
-                let squares: f64 = walls.iter().enumerate().map(gap).map(|x| x * x).sum();
+                let gap = |(w, wall): (usize, &Vec<f32>)| {
+                    f64::from(wall[c]) + added.map_or(0.0, |added| share * added.walls[w][c])
+                };
+                let squares: f64 = room.walls[s].iter().enumerate().map(gap).map(|x| x * x).sum();
                 let room_side_reflection = added.map_or(0.0, |added| share * added.straight[c]);
                 Reflected { value, difference: squares.sqrt(), room_side_reflection }
             };
@@ -194,7 +195,7 @@ impl Responses {
         let one = |(s, sensor): (usize, &Response)| {
             let added = mirrored.as_ref().map(|all| &all[s]);
             let value = dot(&sensor.value, first) + added.map_or(0.0, |added| added.value);
-            let gap = |(w, wall): (usize, &Vec<f64>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
+            let gap = |(w, wall): (usize, &Vec<f32>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
             let squares: f64 = sensor.walls.iter().enumerate().map(gap).map(|x| x * x).sum();
             Reflected {
                 value,

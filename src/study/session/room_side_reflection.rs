@@ -114,7 +114,7 @@ impl RoomSideReflection {
             let weight = match part {
                 0 => by_room[k].value[s][cell] + straight[k][s].cells[cell],
                 1 => straight[k][s].cells[cell],
-                wall => by_room[k].walls[s][wall - 2][cell],
+                wall => f64::from(by_room[k].walls[s][wall - 2][cell]),
             };
             weight as f32
         });

@@ -10,6 +10,7 @@ use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
 use rayon::prelude::*;
+use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Responses of all sensors to light on the patches of the room, by the room's surfaces alone.
@@ -29,8 +30,10 @@ pub(super) struct ThroughRoom {
 }
 
 /// Returns the weights of a sensor's response: those of its value, and with `with_uncertainty` those of its walls.
-fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = &[f64]> {
-    std::iter::once(&sensor.value).chain(sensor.walls.iter().filter(move |_| with_uncertainty)).map(Vec::as_slice)
+fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = Cow<'_, [f64]>> {
+    let walls = sensor.walls.iter().filter(move |_| with_uncertainty);
+    let wide = |wall: &Vec<f32>| Cow::Owned(wall.iter().map(|&weight| f64::from(weight)).collect());
+    std::iter::once(Cow::Borrowed(&sensor.value[..])).chain(walls.map(wide))
 }
 
 impl ThroughRoom {
@@ -80,18 +83,17 @@ impl ThroughRoom {
     /// patches receive its light.
     fn by_cells(&self, weights: &PatchWeights, with_uncertainty: bool) -> ByCells {
         let block = |sensors: &[Response]| {
-            let all: Vec<&[f64]> = sensors.iter().flat_map(|sensor| lists(sensor, with_uncertainty)).collect();
-            weights.gathered(&all)
+            let all: Vec<Cow<'_, [f64]>> = sensors.iter().flat_map(|sensor| lists(sensor, with_uncertainty)).collect();
+            let mut found = weights.gathered(&all.iter().map(|list| &list[..]).collect::<Vec<_>>()).into_iter();
+            let narrow = |wall: Vec<f64>| wall.into_iter().map(|e| e as f32).collect();
+            let one = |sensor: &Response| {
+                let value = found.next().expect("a list has its sums");
+                let count = if with_uncertainty { sensor.walls.len() } else { 0 };
+                (value, found.by_ref().take(count).map(narrow).collect::<Vec<_>>())
+            };
+            sensors.iter().map(one).collect::<Vec<_>>()
         };
-        let found: Vec<Vec<Vec<f64>>> = self.sensors.par_chunks(TOGETHER).map(block).collect();
-        let mut found = found.into_iter().flatten();
-        let (mut value, mut walls) = (Vec::new(), Vec::new());
-        for sensor in self.sensors.iter() {
-            value.extend(found.next());
-            if with_uncertainty {
-                walls.push(found.by_ref().take(sensor.walls.len()).collect());
-            }
-        }
+        let (value, walls) = self.sensors.par_chunks(TOGETHER).flat_map_iter(block).unzip();
         ByCells { value, walls }
     }
 }

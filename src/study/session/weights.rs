@@ -12,8 +12,9 @@ pub(super) const TOGETHER: usize = 32;
 pub(crate) struct Response {
     /// Interreflected illuminance per illuminance of each patch before interreflection. \[lx per lx\]
     pub value: Vec<f64>,
-    /// Differences of these between the fine and the coarse mesh, wall by wall. \[lx per lx\]
-    pub walls: Vec<Vec<f64>>,
+    /// Differences of these between the fine and the coarse mesh, wall by wall; only the uncertainty depends on them, so
+    /// that single precision is enough. \[lx per lx\]
+    pub walls: Vec<Vec<f32>>,
 }
 
 impl Response {
@@ -26,9 +27,9 @@ impl Response {
 /// Interreflected illuminances at the sensors per luminance of each emergent cell, sensor by sensor. \[lx per cd/m²\]
 pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
-    /// Differences of these illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall; empty
-    /// where not requested. \[lx per cd/m²\]
-    pub walls: Vec<Vec<Vec<f64>>>,
+    /// Differences of these illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall; no
+    /// walls where not requested. \[lx per cd/m²\]
+    pub walls: Vec<Vec<Vec<f32>>>,
 }
 
 impl ByCells {

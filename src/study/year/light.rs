@@ -22,8 +22,8 @@ use crate::study::system::SystemLibrary;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Illuminances in the chosen steps: rows of steps, columns of places, first the sensors, then the observers. \[lx\]
 #[derive(Debug, Clone, PartialEq)]
@@ -123,15 +123,13 @@ pub(super) fn light(
     let mut done = 0;
     for (set, rows) in groups {
         let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
-        for rows in rows.chunks(PIECES * TOGETHER) {
-            let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
-            let found = engine.steps(question, &steps, &Counted { inner: progress, before: done, all: lit })?;
-            done += rows.len();
-            for (row, found) in rows.iter().zip(found) {
-                let (values, errors): (Vec<f64>, Vec<f64>) = found.light.iter().map(|e| (e.value, e.error)).unzip();
-                light.put(*row, &values, &errors, found.sun.as_deref());
-            }
-        }
+        let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
+        let put = |index: usize, found: Found| {
+            let (values, errors): (Vec<f64>, Vec<f64>) = found.light.iter().map(|e| (e.value, e.error)).unzip();
+            light.put(rows[index], &values, &errors, found.sun.as_deref());
+        };
+        engine.steps(question, &steps, put, &Counted { inner: progress, before: done, all: lit })?;
+        done += rows.len();
     }
     Ok(light)
 }
@@ -155,21 +153,18 @@ pub(super) fn retracted_sun(question: &Question<'_>, progress: &dyn Progress) ->
     let list = &question.steps.list;
     // Only occupied steps are counted.
     let counts: Vec<usize> = (0..list.len()).filter(|&k| list[k].occupied && list[k].hour.is_lit()).collect();
-    let at = |&k: &usize| {
+    let table = Mutex::new(StepTable::zeros(list.len(), all.places(), counts.len()));
+    counts.par_iter().try_for_each(|&k| {
         if progress.cancelled() {
             return Err(StudyError::from(Cancelled));
         }
-        Ok(question.steps.even_outside(k)?.1.map(|sun| all.at(&sun)))
-    };
-    let mut table = StepTable::zeros(list.len(), all.places(), counts.len());
-    // In blocks: all rows twice would be as much memory as the table itself.
-    for steps in counts.chunks(PIECES * TOGETHER) {
-        let found: Vec<Option<Vec<f64>>> = steps.par_iter().map(at).collect::<Result<_, StudyError>>()?;
-        for (&k, sun) in steps.iter().zip(&found) {
-            sun.iter().for_each(|sun| table.set(k, sun));
+        if let Some(sun) = question.steps.even_outside(k)?.1 {
+            let found = all.at(&sun);
+            table.lock().unwrap_or_else(PoisonError::into_inner).set(k, &found);
         }
-    }
-    Ok(Some(table))
+        Ok(())
+    })?;
+    Ok(Some(table.into_inner().unwrap_or_else(PoisonError::into_inner)))
 }
 
 /// Returns the scene with the moving apertures in one combination of states, with the observers appended to its
@@ -238,7 +233,8 @@ impl Engine {
         self.all(&[(hour, outside)]).swap_remove(0)
     }
 
-    /// Computes steps of the year in parallel, in their order.
+    /// Computes steps of the year in parallel. `put`: takes the index of a step in `steps` and its illuminances, as soon
+    /// as they are found; those of all steps would take as much memory again as the tables that they end in.
     ///
     /// # Errors
     /// Returns an error if the weather of a step is wrong, or if cancelled.
@@ -246,21 +242,25 @@ impl Engine {
         &self,
         question: &Question<'_>,
         steps: &[usize],
+        put: impl FnMut(usize, Found) + Send,
         progress: &dyn Progress,
-    ) -> Result<Vec<Found>, StudyError> {
+    ) -> Result<(), StudyError> {
+        let together = steps.len().div_ceil(PIECES).clamp(1, TOGETHER);
         let done = AtomicUsize::new(0);
-        let block = |block: &[usize]| {
+        let put = Mutex::new(put);
+        let block = |(number, block): (usize, &[usize])| {
             if progress.cancelled() {
                 return Err(StudyError::from(Cancelled));
             }
             let hour = |&step: &usize| Ok((step, question.steps.outside(step)?));
             let found = self.all(&block.iter().map(hour).collect::<Result<Vec<_>, StudyError>>()?);
+            let mut put = put.lock().unwrap_or_else(PoisonError::into_inner);
+            found.into_iter().enumerate().for_each(|(k, found)| put(number * together + k, found));
+            drop(put);
             progress.advance("hours", done.fetch_add(block.len(), Ordering::Relaxed) + block.len(), steps.len());
-            Ok(found)
+            Ok(())
         };
-        let together = steps.len().div_ceil(PIECES).clamp(1, TOGETHER);
-        let found: Vec<Vec<Found>> = steps.par_chunks(together).map(block).collect::<Result<_, StudyError>>()?;
-        Ok(found.into_iter().flatten().collect())
+        steps.par_chunks(together).enumerate().try_for_each(block)
     }
 
     /// Computes the illuminances in several steps of the year together.

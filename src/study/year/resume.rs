@@ -237,11 +237,11 @@ pub(super) fn light(
         while at < missing.len() {
             let part = &missing[at..(at + block).min(missing.len())];
             let clock = Instant::now();
-            let found = engine.steps(question, part, &Counted { inner: progress, before: done, all })?;
-            for (&k, Found { light, sun }) in part.iter().zip(found) {
+            let put = |index: usize, Found { light, sun }| {
                 let (values, errors) = light.iter().map(|e| (e.value, e.error)).unzip();
-                kept.keep(k, Hour { values, errors, sun });
-            }
+                kept.keep(part[index], Hour { values, errors, sun });
+            };
+            engine.steps(question, part, put, &Counted { inner: progress, before: done, all })?;
             kept.write()?;
             (at, done) = (at + part.len(), done + part.len());
             let share = BLOCK.as_secs_f64() / clock.elapsed().as_secs_f64().max(1e-3);
