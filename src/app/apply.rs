@@ -2,8 +2,8 @@
 //! here.
 
 use super::catalogue::command::CatalogueCommand;
+use super::catalogue::find_like;
 use super::command::Command;
-use super::compare::find_like;
 use super::export::choices::What;
 use super::export::{Export, copy_value, start_path, targets};
 use super::results::{measure_accuracy, stop_computing, weigh_obstructions};
@@ -14,7 +14,7 @@ use super::state::{PathUse, Sheet};
 use super::window::App;
 use super::year;
 use crate::app::display::text_sizing::change_text_size;
-use crate::app::results::work::{Outcome, save_scene};
+use crate::app::results::work::Outcome;
 use crate::app::scene::moment;
 use crate::app::scene::outside;
 use crate::app::scene::selection::{select_product, select_state, set_control, set_mode, step_row, step_state};
@@ -271,11 +271,7 @@ impl App {
             PathUse::Open => self.imports.read_paths(shell, vec![path]),
             PathUse::ReplaceState => self.products.replace_state(shell, path),
             PathUse::Subscribe => self.products.act(shell, CatalogueCommand::SubscribeTo(path)),
-            PathUse::SaveScene => {
-                let text = toml::to_string_pretty(&shell.state.document.scene);
-                let made_from = shell.state.files_of_scene();
-                self.export.start_writing(shell, move || save_scene(&path, text, &made_from));
-            }
+            PathUse::SaveScene => self.export.save_scene(shell, path),
             PathUse::ExportTile(tile) => self.export.ask_tile(shell, tile, path),
             PathUse::Export => self.export.start(shell, path),
             PathUse::ExportMeasured => {

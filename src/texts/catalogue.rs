@@ -161,7 +161,7 @@ texts! {
     const AUTHOR = "Author" | "Verfasser";
     const LICENSE = "Licence" | "Lizenz";
     const LICENSE_HINT = "e.g. CC BY 4.0" | "z. B. CC BY 4.0";
-    const NONE_SELECTED = "No product is selected." | "Kein Produkt gewählt.";
+    const NONE_SELECTED = "No product selected: select one in the catalogue." | "Kein Produkt gewählt: im Katalog eines wählen.";
     fn key_in_scenes(key) = "Key in scenes: {key}" | "Schlüssel in Szenen: {key}";
     fn of_subscription(folder) = "From the subscribed folder {folder}, read-only." | "Aus dem abonnierten Ordner {folder}, schreibgeschützt.";
     const OF_PROGRAM = "Built in: name, kind and tags are fixed. Deleting hides it." | "Mitgeliefert: Name, Art und Schlagwörter sind fest. Löschen blendet es aus.";

@@ -119,7 +119,6 @@ texts! {
     const ALREADY_IN_COMPARISON = "Already in the comparison. Shift+C adds it with this date and time, to compare it with another" | "Schon im Vergleich. Umschalt+C fügt es mit diesem Zeitpunkt hinzu, zum Vergleich mit einem anderen";
     const NOT_LISTED = "The product is not in the list: search for it, then add it" | "Das Produkt ist nicht in der Liste: erst suchen, dann hinzufügen";
     const NOTHING_TO_SWAP = "Nothing to swap with: add the current product (C), select another product or state, then press X" | "Nichts zum Tauschen: das gezeigte Produkt hinzufügen (C), ein anderes Produkt oder eine andere Stellung wählen, dann X";
-    const NO_PRODUCT_CHOSEN = "No product is selected" | "Kein Produkt gewählt";
 
     // In a report.
     const CHAPTER = "Comparison" | "Vergleich";

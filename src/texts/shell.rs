@@ -56,7 +56,6 @@ texts! {
     const CLOSE = "Close" | "Schließen";
     const CLOSE_TIP = "Closes this sheet (Escape)" | "Schließt dieses Blatt (Esc)";
     const OPENING_THE_CATALOGUE = "Opening the catalogue…" | "Der Katalog wird geöffnet…";
-    const NO_PRODUCT_CHOSEN = "No product selected: select one in the catalogue." | "Kein Produkt gewählt: im Katalog eines wählen.";
 
     const PATH = "Path" | "Pfad";
     const OPEN_HINT = "Dataset (.xml, .btdf.txt), folder or archive of datasets (.zip), package (.cfsp), system (.system.toml), scene (.toml) or control curve (.csv); or drop files on the window." | "Datensatz (.xml, .btdf.txt), Ordner oder Archiv mit Datensätzen (.zip), Paket (.cfsp), System (.system.toml), Szene (.toml) oder Steuerkurve (.csv); oder Dateien auf das Fenster ziehen.";

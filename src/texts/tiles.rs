@@ -126,7 +126,6 @@ texts! {
     const READING_PRODUCT = "Reading the product…" | "Produkt wird gelesen…";
     const READING_CATALOGUE = "Reading the catalogue…" | "Katalog wird gelesen…";
     const LISTING_BUILTIN = "Listing the built-in products…" | "Mitgelieferte Produkte werden aufgelistet…";
-    const NO_PRODUCT = "No product selected: select one in the catalogue." | "Kein Produkt gewählt: im Katalog eines wählen.";
     fn logarithmic(unit) = "{unit} (log)" | "{unit} (log)";
 
     // The tile area.

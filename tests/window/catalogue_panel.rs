@@ -165,7 +165,14 @@ fn the_control_tile_says_why_nothing_moves() {
     h.state_mut().shell.state.catalogue = known;
     h.state_mut().shell.state.document.selection.product.clear();
     h.run_steps(2);
-    assert!(h.query_all_by_label("No product selected: select one in the catalogue.").count() > 0);
+    const NONE: &str = "No product selected: select one in the catalogue.";
+    assert!(h.query_all_by_label(NONE).count() > 0);
+    // Nor does a command that asks for one do nothing without a word.
+    for command in [Command::EditProduct(None), Command::Like(None)] {
+        h.state_mut().shell.toasts.clear();
+        apply(&mut h, command);
+        assert_eq!(h.state().shell.toasts.all().map(|one| &one.text[..]).collect::<Vec<_>>(), [NONE]);
+    }
     assert!(h.query_by_label_contains("has only one state").is_none());
 }
 

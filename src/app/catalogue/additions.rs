@@ -4,7 +4,7 @@ use super::Products;
 use super::changes::Added;
 use super::shelf::Addition;
 use crate::app::results::work::Outcome;
-use crate::app::scene::first_choice::first_choice;
+use crate::app::scene::first_choice::choose_first;
 use crate::app::shell::Shell;
 use crate::app::shell::error::AppError;
 use crate::catalogue::{Product, Stored};
@@ -81,10 +81,7 @@ impl Products {
             let message = shell.toasts.success(what);
             numbers.iter().for_each(|number| self.additions[*number].message = Some(message));
             // The step that added it also shows it.
-            let (rule, place) = first.representative();
-            let state = first.states.get(place).filter(|_| first.states.len() > 1);
-            let state = state.map(|state| state.key.as_str());
-            first_choice(&mut shell.state.document, first.key.clone(), rule, state);
+            choose_first(&mut shell.state.document, first);
             shell.end_step();
         }
         shell.search();

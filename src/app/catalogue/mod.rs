@@ -17,7 +17,7 @@ use super::import::proposal::ImportFields;
 use super::shell::Shell;
 use super::state::{Document, Sheet};
 use crate::app::results::work::Outcome;
-use crate::app::scene::first_choice::first_choice;
+use crate::app::scene::first_choice::choose_first_listed;
 use crate::app::shell::error::AppError;
 use crate::app::shell::jobs::Lane;
 use crate::catalogue::Deleted;
@@ -47,9 +47,21 @@ pub struct Products {
     first_due: bool,
 }
 
-/// Returns the given key, or that of the selected product.
-fn meant(shell: &Shell, key: Option<String>) -> Option<String> {
-    key.or_else(|| Some(shell.state.document.selection.product.clone()).filter(|key| !key.is_empty()))
+/// Returns the given key, or that of the selected product; without one, the user is told so.
+fn meant(shell: &mut Shell, key: Option<String>) -> Option<String> {
+    let key = key.or_else(|| Some(shell.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
+    if key.is_none() {
+        shell.toasts.info(text::NONE_SELECTED);
+    }
+    key
+}
+
+/// Lists products that are optically similar to a given one, or to the selected one.
+pub fn find_like(shell: &mut Shell, key: Option<String>) {
+    let Some(key) = meant(shell, key) else { return };
+    shell.state.settings.catalogue_open = true;
+    shell.state.query.like = Some(key);
+    shell.search();
 }
 
 impl Products {
@@ -132,8 +144,7 @@ impl Products {
             let neighbour =
                 entries.entries.get(place + 1).or_else(|| place.checked_sub(1).map(|i| &entries.entries[i]));
             if let Some(neighbour) = neighbour {
-                let state = Some(neighbour.state()).filter(|_| neighbour.moves());
-                first_choice(&mut shell.state.document, neighbour.key.clone(), neighbour.rule, state);
+                choose_first_listed(&mut shell.state.document, neighbour);
                 shell.state.control_of = None;
             }
         }

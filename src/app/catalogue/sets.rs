@@ -41,7 +41,10 @@ impl Products {
             }
             CatalogueCommand::Collect { name, product, put } => {
                 let name = name.trim().to_owned();
-                let Some(key) = meant(shell, product).filter(|_| !name.is_empty()) else { return };
+                if name.is_empty() {
+                    return;
+                }
+                let Some(key) = meant(shell, product) else { return };
                 let collection = shell.state.sets.collections.iter().find(|one| one.name == name);
                 let inside = collection.is_some_and(|one| one.products.contains(&key));
                 if put {

@@ -9,7 +9,7 @@ use crate::app::command::Command;
 use crate::app::results::engine::Question;
 use crate::app::results::work::{Compared, LoadedSelection, Outcome, daylight, take_from_shelf};
 use crate::app::scene::control;
-use crate::app::scene::first_choice::first_choice;
+use crate::app::scene::first_choice::choose_first_listed;
 use crate::app::scene::{own_system, rule, selection_of};
 use crate::app::shell::Shell;
 use crate::app::shell::error::AppError;
@@ -144,25 +144,13 @@ fn add_product(shell: &mut Shell, key: String) {
         return;
     };
     let mut document = shell.state.document.clone();
-    first_choice(&mut document, key, entry.rule, Some(entry.state()).filter(|_| entry.moves()));
+    choose_first_listed(&mut document, &entry);
     let how = match (control::first_keys(entry.rule), entry.moves()) {
         (Some(keys), _) => format!(", {}", rule_words(keys.mode)),
         (None, true) => format!(", {}", entry.state()),
         (None, false) => String::new(),
     };
     add_candidate(shell, keys_of(&document, format!("{}{how}", entry.name)));
-}
-
-/// Lists products that are optically similar to another one.
-pub fn find_like(shell: &mut Shell, key: Option<String>) {
-    let key = key.or_else(|| Some(shell.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
-    let Some(key) = key else {
-        shell.toasts.info(texts::NO_PRODUCT_CHOSEN);
-        return;
-    };
-    shell.state.settings.catalogue_open = true;
-    shell.state.query.like = Some(key);
-    shell.search();
 }
 
 impl Columns {

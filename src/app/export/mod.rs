@@ -16,7 +16,7 @@ use super::shell::Shell;
 use super::state::{PathUse, Results, Sheet, State, Tile};
 use super::tiles::TILES;
 use crate::app::results::engine::Question;
-use crate::app::results::work::{Outcome, export_lid};
+use crate::app::results::work::Outcome;
 use crate::app::shell::disk::write_whole;
 use crate::app::shell::error::AppError;
 use crate::app::shell::jobs::{Jobs, Lane};
@@ -289,7 +289,20 @@ impl Export {
         }
         let (engine, lid) = (shell.services.engine.clone(), shown.value.clone());
         let made_from = shell.state.made_from();
-        self.start_writing(shell, move || export_lid(&path, lid.as_deref(), &*engine, &made_from));
+        self.start_writing(shell, move || {
+            let bytes = lid.ok_or(AppError::NoLid).and_then(|lid| engine.luminaire(&lid, &path));
+            Outcome::Written(PathUse::ExportLid, bytes.and_then(|bytes| write_whole(&path, &bytes, &made_from)))
+        });
+    }
+
+    /// Starts writing the scene.
+    pub fn save_scene(&mut self, shell: &mut Shell, path: PathBuf) {
+        let text = toml::to_string_pretty(&shell.state.document.scene).map_err(AppError::from);
+        let made_from = shell.state.files_of_scene();
+        self.start_writing(shell, move || {
+            let written = text.and_then(|text| write_whole(&path, text.as_bytes(), &made_from));
+            Outcome::Written(PathUse::SaveScene, written)
+        });
     }
 
     /// Requests the numbers of a tile for a file, and shows the tile.

@@ -57,7 +57,7 @@ pub fn show(ui: &mut Ui, app: &mut App, sheet: Sheet, commands: &mut Vec<Command
                 let words = match &app.shell.state.catalogue {
                     CatalogueState::Opening => shell::OPENING_THE_CATALOGUE.get(),
                     CatalogueState::Failed(error) => error.as_str(),
-                    CatalogueState::Ready(_) => shell::NO_PRODUCT_CHOSEN.get(),
+                    CatalogueState::Ready(_) => texts::NONE_SELECTED.get(),
                 };
                 ui.label(words);
             }

@@ -6,7 +6,7 @@ pub mod board;
 use crate::app::catalogue::shelf::Shelf;
 use crate::app::results::engine::Engine;
 use crate::app::results::work::Outcome;
-use crate::app::scene::first_choice::first_choice;
+use crate::app::scene::first_choice::choose_first;
 use crate::app::scene::{Selection, fill, selection_of};
 use crate::app::shell::Shell;
 use crate::app::shell::error::AppError;
@@ -175,9 +175,7 @@ fn into_room(shell: &mut Shell, key: &str) {
         }
         let by_scene = figures.asked.control == RankControlKey::Scene && product.states.len() > 1;
         let scene_control = document.scene.control.clone().filter(|_| by_scene);
-        let (rule, stands) = product.representative();
-        let state = product.states.get(stands).filter(|_| product.states.len() > 1);
-        first_choice(document, product.key.clone(), rule, state.map(|state| state.key.as_str()));
+        choose_first(document, product);
         if let Some(scene_control) = scene_control {
             document.selection = Selection { product: product.key.clone(), state: CONTROLLED.to_owned() };
             fill(&mut document.scene, &document.selection);

@@ -8,11 +8,10 @@ use crate::app::export::choices::Preview;
 use crate::app::goniophotometer::run::Finished;
 use crate::app::import::proposal::{Import, Proposed};
 use crate::app::results::data_looks::{FormResult, SchemesResult};
-use crate::app::results::engine::{Engine, LidFigures, RoomFigures, SurfaceFigures};
+use crate::app::results::engine::{LidFigures, RoomFigures, SurfaceFigures};
 use crate::app::scene::control::Year;
 use crate::app::scene::outside::ObstructionEffects;
 use crate::app::scene::{Selection, rule};
-use crate::app::shell::disk::write_whole;
 use crate::app::shell::error::AppError;
 use crate::app::state::{Daylight, PathUse, Tile};
 use crate::app::year::input::Calendar;
@@ -247,20 +246,4 @@ pub(in crate::app) fn take_from_shelf(
     let ready = shelf.is_ready(&selection.product, Some(&state))?;
     let dataset = if ready { Some(shelf.load(&selection.product, Some(&state))?) } else { None };
     Ok(LoadedSelection { product, state, dataset })
-}
-
-/// Writes the text of a scene to a path. `made_from`: input files, which must not be overwritten.
-pub fn save_scene(path: &Path, text: Result<String, toml::ser::Error>, made_from: &[PathBuf]) -> Outcome {
-    let written = text.map_err(AppError::from).and_then(|text| write_whole(path, text.as_bytes(), made_from));
-    Outcome::Written(PathUse::SaveScene, written)
-}
-
-/// Writes a luminous intensity distribution (LID) as a luminaire file. `made_from`: input files, which must not be
-/// overwritten.
-pub fn export_lid(path: &Path, lid: Option<&LidFigures>, engine: &dyn Engine, made_from: &[PathBuf]) -> Outcome {
-    let written = lid
-        .ok_or(AppError::NoLid)
-        .and_then(|lid| engine.luminaire(lid, path))
-        .and_then(|bytes| write_whole(path, &bytes, made_from));
-    Outcome::Written(PathUse::ExportLid, written)
 }

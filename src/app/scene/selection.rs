@@ -1,11 +1,11 @@
 //! Selection of product and state, and of the shading control that chooses the state, each as an undo step.
 
-use crate::app::scene::first_choice::first_choice;
+use crate::app::scene::first_choice::{choose_first, choose_first_listed};
 use crate::app::scene::{Selection, fill, own_system, rule, selection_of, set_rule};
 use crate::app::shell::Shell;
-use crate::app::state::State;
+use crate::app::state::{Document, State};
 use crate::app::title;
-use crate::catalogue::{FirstRule, Product};
+use crate::catalogue::Product;
 use crate::study::control::year::CONTROLLED;
 use crate::study::control::{Device, settings};
 use crate::study::scene_file::{ControlKeys, ControlMode};
@@ -35,22 +35,20 @@ pub fn select_product(shell: &mut Shell, product: String) {
         return;
     }
     match state.found.entries.iter().find(|entry| entry.key == product).cloned() {
-        Some(entry) => choose(shell, product, entry.rule, Some(entry.state()).filter(|_| entry.moves())),
+        Some(entry) => choose(shell, |document| choose_first_listed(document, &entry)),
         None => shell.look_up(product),
     }
 }
 
 /// Selects a product that was read from the catalogue.
 pub fn choose_product(shell: &mut Shell, product: &Product) {
-    let (rule, place) = product.representative();
-    let state = product.states.get(place).filter(|_| product.states.len() > 1);
-    choose(shell, product.key.clone(), rule, state.map(|state| state.key.as_str()));
+    choose(shell, |document| choose_first(document, product));
 }
 
-/// Selects a product, with the control rule that it defines or in its representative state, as one undo step.
-fn choose(shell: &mut Shell, product: String, rule: FirstRule, state: Option<&str>) {
+/// Selects a product as one undo step.
+fn choose(shell: &mut Shell, select: impl FnOnce(&mut Document)) {
     shell.end_step();
-    first_choice(&mut shell.state.document, product, rule, state);
+    select(&mut shell.state.document);
     shell.state.control_of = None;
     shell.end_step();
 }
@@ -199,13 +197,12 @@ pub fn select_something(shell: &mut Shell) {
     let guiding =
         || GUIDES.iter().find_map(|word| entries.iter().find(|entry| entry.name.to_lowercase().contains(word)));
     let chosen = Arc::clone(moving.or_else(guiding).unwrap_or(&entries[0]));
-    let state = Some(chosen.state()).filter(|_| chosen.moves());
     if own_system(&shell.state.document.scene).is_some() {
-        let state = state.unwrap_or_default().to_owned();
+        let state = if chosen.moves() { chosen.state().to_owned() } else { String::new() };
         shell.state.document.selection = Selection { product: chosen.key.clone(), state };
         report_own_system(shell, chosen.name.clone());
     } else {
-        first_choice(&mut shell.state.document, chosen.key.clone(), chosen.rule, state);
+        choose_first_listed(&mut shell.state.document, &chosen);
     }
     shell.begin_history();
 }

@@ -5,7 +5,7 @@ use crate::app::paint::tile::Status;
 use crate::app::shell::jobs::Lane;
 use crate::app::state::{CatalogueState, Results, Shown, State};
 use crate::app::title;
-use crate::texts::tiles as say;
+use crate::texts::{catalogue, tiles as say};
 use egui::Ui;
 
 /// Input of a tile in one frame.
@@ -59,7 +59,7 @@ impl<'a> TileInput<'a> {
             (_, false, false) => Some((say::READING_PRODUCT.into(), false)),
             (_, true, _) if busy => Some((say::READING_CATALOGUE.into(), false)),
             (_, true, _) if (self.busy)(Lane::Builtin) => Some((say::LISTING_BUILTIN.into(), false)),
-            (_, true, _) => Some((say::NO_PRODUCT.into(), false)),
+            (_, true, _) => Some((catalogue::NONE_SELECTED.into(), false)),
         }
     }
 
