@@ -27,8 +27,7 @@ def memory(session, entry):
 def products(session):
     """every product looked at"""
     listed = session.desk.command("catalogue", "list").stdout.splitlines()
-    session.search("")
-    session.desk.key("Home")
+    session.choose("")
     for _ in listed:
         session.desk.key("Down")
         session.settle(4)
@@ -41,8 +40,9 @@ def year(session):
     session.command("Compute a year")
     session.finished()
     session.desk.key("0")
-    session.search("")
-    session.desk.key("Home", *["Down"] * 7)
+    # The next year is of another product.
+    session.choose("")
+    session.desk.key(*["Down"] * 7)
     session.settle()
 
 

@@ -43,12 +43,17 @@ class Session:
         self.desk.type(text)
         self.desk.key("Return")
 
-    def search(self, words):
-        """Searches the catalogue."""
+    def search(self, words, leave="Tab"):
+        """Searches the catalogue; `leave`: key that leaves the field."""
         self.desk.key("ctrl+f", "ctrl+a", "BackSpace")
         self.desk.type(words)
         time.sleep(1.0)
-        self.desk.key("Tab")
+        self.desk.key(leave)
+
+    def choose(self, words):
+        """Searches the catalogue and selects the first product found, from which arrow keys go on in the list."""
+        self.search(words, "Return")
+        self.settle()
 
     def picture(self, name, part=None):
         """Takes the window, or a part of it at the size of the tour's pictures: (x, y, width, height) [px]."""

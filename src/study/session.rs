@@ -67,7 +67,7 @@ use unit_beams::UnitBeams;
 use weights::{ByCells, Response};
 
 /// Name of the first stage of computing a room, in reports of progress.
-const DIRECT: &str = "direct light";
+const DIRECT_STAGE: &str = "direct light";
 
 /// Number of stages that progress reports for a room: emission, direct light, two meshes.
 const STEPS: usize = 4;
@@ -202,7 +202,7 @@ impl Session {
             plan.note("interpolation", true, note);
         }
         check(progress)?;
-        progress.advance(DIRECT, 1, STEPS);
+        progress.advance(DIRECT_STAGE, 1, STEPS);
 
         let clock = Instant::now();
         let kept = emissions.iter().all(|one| bases(one).into_iter().all(|basis| keeps_receptions(scene, basis)));
@@ -395,7 +395,7 @@ impl Session {
             if scene.near_field != NearField::SolidAngle {
                 let method =
                     Integrator::new(scene.near_field, aperture, emission, &facing, Tolerance::relative(relative));
-                let part = in_blocks(scene, DIRECT, progress, |_, sensor| Ok(method.illuminance(sensor)))?;
+                let part = in_blocks(scene, DIRECT_STAGE, progress, |_, sensor| Ok(method.illuminance(sensor)))?;
                 sums.iter_mut().zip(part).for_each(|(sum, e)| *sum += e);
                 continue;
             }
@@ -411,7 +411,7 @@ impl Session {
             // error that the rules state there is thousands of times the actual one.
             let absolute = 1e-14 * facing.outside.diffuse_horizontal();
             let tolerance = Tolerance { absolute, relative, max_pieces: 4000 };
-            let part = in_blocks(scene, DIRECT, progress, |s, sensor| {
+            let part = in_blocks(scene, DIRECT_STAGE, progress, |s, sensor| {
                 let own: Vec<Cow<'_, Reception>> = receptions.iter().map(|all| all.of(s, sensor)).collect();
                 let own: Vec<&Reception> = own.iter().map(|one| &**one).collect();
                 let bands = bands.as_ref().map(|all| all.of(s, sensor));

@@ -7,6 +7,7 @@ mod glossary;
 mod layers;
 mod licences;
 mod scan;
+mod stages;
 mod words;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -235,6 +235,22 @@ fn typing_errors_are_forgiven_and_told() {
 }
 
 #[test]
+fn another_search_replaces_the_first() {
+    let mut h = window();
+    for words in ["opal", "prismatic", "laser"] {
+        h.key_press_modifiers(Modifiers::COMMAND, Key::F);
+        h.run_steps(2);
+        // Letters come as fast as frames.
+        for letter in words.chars() {
+            h.event(egui::Event::Text(letter.into()));
+            h.run_steps(1);
+        }
+        settle(&mut h);
+        assert_eq!(state(&h).query.text, words);
+    }
+}
+
+#[test]
 fn the_list_is_ordered_by_what_is_chosen() {
     let mut h = window();
     h.get_by_label("Order").click();

@@ -12,6 +12,7 @@ use crate::app::catalogue::gallery::Gallery;
 use crate::app::catalogue::shelf::Query;
 use crate::app::command::Command;
 use crate::app::display::theme;
+use crate::app::panels::fields::select_all;
 use crate::app::scene::control;
 use crate::app::state::{CatalogueState, State};
 use crate::app::title;
@@ -96,6 +97,10 @@ fn search_field(ui: &mut Ui, state: &mut State, query: &mut Query, commands: &mu
     if state.focus_search && state.palette.is_none() {
         state.focus_search = !field.has_focus();
         field.request_focus();
+        // The next letters replace the words, unless some have arrived meanwhile.
+        if !field.changed() {
+            select_all(ui, field.id, &query.text);
+        }
     }
     if field.has_focus() {
         let (up, down) = ui.input(|input| (input.key_pressed(Key::ArrowUp), input.key_pressed(Key::ArrowDown)));

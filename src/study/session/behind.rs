@@ -5,7 +5,7 @@ use super::outside_seen::OutsideSeen;
 use super::part::{Part, WHOLE, area, overlap, part_of};
 use super::seen::in_blocks;
 use super::split::{Leaf, Smooth, any_of, mean_of};
-use super::{DIRECT, LidResult, Session, cubature};
+use super::{DIRECT_STAGE, LidResult, Session, cubature};
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
 use crate::compute::estimate::{Cancelled, Estimate, Progress};
@@ -200,7 +200,7 @@ impl Session {
         // What lies between edges is judged by few points: more of them than an open sky needs.
         let relative = 0.3 * cubature(scene.error_target);
         let tolerance = Tolerance { absolute: 1e-7 * scene.outside.diffuse_horizontal(), relative, max_pieces: 4000 };
-        in_blocks(scene, DIRECT, progress, |_, sensor| {
+        in_blocks(scene, DIRECT_STAGE, progress, |_, sensor| {
             let mut sum = DirectLight::default();
             for (index, split) in splits.iter().enumerate() {
                 sum += split.at(sensor, &scene.apertures[index].aperture, &scene.facing(index), tolerance);
