@@ -241,8 +241,10 @@ pub(super) fn light(
                 let (values, errors) = light.iter().map(|e| (e.value, e.error)).unzip();
                 kept.keep(part[index], Hour { values, errors, sun });
             };
-            engine.steps(question, part, put, &Counted { inner: progress, before: done, all })?;
+            let ended = engine.steps(question, part, put, &Counted { inner: progress, before: done, all });
+            // Hours found before a run is cancelled are not lost.
             kept.write()?;
+            ended?;
             (at, done) = (at + part.len(), done + part.len());
             let share = BLOCK.as_secs_f64() / clock.elapsed().as_secs_f64().max(1e-3);
             block = ((part.len() as f64 * share) as usize).max(FIRST);
