@@ -47,7 +47,7 @@ pub struct Products {
     first_due: bool,
 }
 
-/// Returns the given key, or that of the selected product; without one, the user is told so.
+/// Returns the given key, or that of the selected product; a message if no product is selected.
 fn meant(shell: &mut Shell, key: Option<String>) -> Option<String> {
     let key = key.or_else(|| Some(shell.state.document.selection.product.clone()).filter(|key| !key.is_empty()));
     if key.is_none() {
