@@ -69,6 +69,7 @@
 //! | add a family of systems | a folder in [`compute::system`] that implements [`compute::system::Family`], its arm in [`compute::system::SystemKind`], its keys in [`formats::system_toml`], a description under `assets/systems` |
 //! | add a built-in product | a description under `assets/systems`, whose README says how to compute the table of figures; [`catalogue::SYSTEMS`] lists all |
 //! | add a check or a repair of data | [`compute::doctor`] |
+//! | add an annual metric, which can be an objective of rankings | its value in [`compute::year`], its entry in the table of metrics of [`study::year`], its labels in [`texts::year`] |
 //! | add a figure to comparisons | [`study::comparison`]: its entry in `FIGURES`, its input in `Facts` |
 //! | add a shading control | [`compute::control`], its key in [`study::scene_file`] |
 //! | change an angle convention | [`compute::direction`], nowhere else |

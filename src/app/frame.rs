@@ -92,7 +92,7 @@ impl App {
 
     /// Returns the time that each visible tile took to be drawn in the last frame, for performance measurements.
     pub fn tile_times(&self) -> &[(Tile, Duration)] {
-        &self.shell.bench.times
+        self.shell.bench.times()
     }
 
     /// Returns the session, the messages, and what the session stores of the window.

@@ -93,6 +93,10 @@ limits! {
     most SYSTEM_STATES: usize = 361, "states of a system file", "";
     /// Maximum number of points of an outline in a system file.
     most OUTLINE_POINTS: usize = 2000, "points of an outline in a system file", "";
+    /// Maximum number of points of a slat's profile; its pieces exchange light, each with all others.
+    most SLAT_POINTS: usize = 400, "points of a slat's profile", "";
+    /// Maximum number of points of a control curve.
+    most CURVE_POINTS: usize = 10_000, "points of a control curve", "";
     /// Maximum number of pitches that a mirror slat spans in its longer dimension.
     most MIRROR_PITCHES: f64 = 8.0, "pitches that a mirror slat spans", "";
     /// Maximum number of sensors of a scene.

@@ -5,9 +5,7 @@
 //! in this order; comments from `#` on. Not read: decimal commas, units other than degrees.
 
 use super::encoding::{NotText, TooLong, decode, not_too_long};
-
-/// Maximum number of points of a control curve.
-const MOST_POINTS: usize = 10_000;
+use crate::compute::limits::CURVE_POINTS;
 
 /// Error in reading a control curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -98,7 +96,7 @@ pub fn read_control_curve(bytes: &[u8]) -> Result<Vec<[f64; 2]>, CurveError> {
         }
         points.push(point);
         // Within the loop, so that a file of another kind is not read to its end first.
-        if points.len() > MOST_POINTS {
+        if points.len() > CURVE_POINTS {
             return Err(CurveError::Count(points.len()));
         }
     }

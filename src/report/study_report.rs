@@ -13,10 +13,10 @@ use crate::drawing::Drawing;
 use crate::drawing::colours::Inks;
 use crate::drawing::ticks::{number, si, tick};
 use crate::study::scene_file::{SceneFile, SurfaceKey};
-use crate::study::scene_words::{coordinates, error_words};
+use crate::study::scene_words::{coordinates, error_words, station_place};
 use crate::study::subject::Subject;
 use crate::study::{RoomResult, SensorResult};
-use crate::texts::{Text, export as texts, one_line};
+use crate::texts::{Text, export as texts};
 
 /// Input of a study report.
 pub struct Study<'a> {
@@ -69,10 +69,7 @@ fn situation(subject: &Subject) -> Vec<(String, String)> {
     add(texts::SYSTEM, subject.name.clone());
     let site = &file.site;
     if let Some(weather) = &subject.scene.weather {
-        let station = &weather.station;
-        let name = if station.name.is_empty() { &weather.name } else { &station.name };
-        let place = coordinates(station.latitude, station.longitude);
-        add(texts::WEATHER, format!("{}, {place}: {}", one_line(name), weather.interval));
+        add(texts::WEATHER, format!("{}: {}", station_place(&weather.station), weather.interval));
     } else if let (Some(latitude), Some(longitude)) = (site.latitude, site.longitude) {
         add(texts::PLACE, format!("{}, {} m", coordinates(latitude, longitude), tick(site.elevation)));
     }

@@ -3,10 +3,11 @@
 use super::moment;
 use super::places::city_at;
 use super::scene_file::{IdealKind, RANKED, SceneFile, SkyModelKey, SystemKeys};
-use super::weather::short_name;
+use super::weather::{YEARS, short_name};
 use crate::compute::estimate::{Estimate, largest_relative_error};
+use crate::compute::weather::Station;
 use crate::drawing::ticks::number;
-use crate::texts::{fixed, words as texts};
+use crate::texts::{fixed, one_line, words as texts};
 
 /// Returns the place of a scene as text: for a weather hour the name of the weather, since its place is used; else the
 /// city that contains the site, or coordinates.
@@ -27,6 +28,22 @@ pub fn coordinates(latitude: f64, longitude: f64) -> String {
     let ns = if latitude < 0.0 { texts::S } else { texts::N };
     let ew = if longitude < 0.0 { texts::W } else { texts::E };
     texts::coordinates(fixed(latitude.abs(), 2), ns, fixed(longitude.abs(), 2), ew)
+}
+
+/// Returns the name of a weather station in one line: the place of a built-in year in the current language, else the
+/// name in its data, else its coordinates.
+pub fn station(station: &Station) -> String {
+    if let Some(year) = YEARS.iter().find(|year| year.is_of(station)) {
+        return short_name(&year.name());
+    }
+    let name = one_line(&station.name);
+    if name.is_empty() { coordinates(station.latitude, station.longitude) } else { name.into() }
+}
+
+/// Returns name and coordinates of a weather station.
+pub fn station_place(station: &Station) -> String {
+    let (name, place) = (self::station(station), coordinates(station.latitude, station.longitude));
+    if name == place { place } else { format!("{name}, {place}") }
 }
 
 /// Returns date and time of a scene as text.
@@ -96,6 +113,19 @@ pub fn error_words(totals: impl Iterator<Item = Estimate> + Clone) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::texts::{Language, speak};
+
+    #[test]
+    fn stations_have_the_name_of_their_language_of_their_data_or_their_coordinates() {
+        let at = |name: &str, latitude: f64, longitude: f64| {
+            station_place(&Station { name: name.to_owned(), latitude, longitude, ..Station::default() })
+        };
+        let [own, other] = [at("Piedmont, 45° N 8° E", 45.0, 8.0), at("Piedmont\nhill", 45.1, 8.0)];
+        assert_eq!([&own[..], &other[..]], ["Piedmont, 45.00°N 8.00°E", "Piedmont hill, 45.10°N 8.00°E"]);
+        assert_eq!(at("", 48.78, 9.18), "48.78°N 9.18°E");
+        let _speaking = speak(Language::German);
+        assert_eq!(at("Piedmont, 45° N 8° E", 45.0, 8.0), "Piemont, 45,00°N 8,00°O");
+    }
 
     #[test]
     fn large_errors_are_written_loudly() {

@@ -4,7 +4,7 @@ use super::error::StudyError;
 use super::files;
 use crate::compute::btdf::{Finding, Severity};
 use crate::compute::limits;
-use crate::compute::weather::{Record, Summary, Weather};
+use crate::compute::weather::{Record, Station, Summary, Weather};
 use crate::formats::weather;
 use crate::texts::year as say;
 use jiff::civil::{Date, DateTime};
@@ -55,12 +55,20 @@ impl BuiltinYear {
     /// Returns latitude (north positive) and longitude (east positive) of the year's station, from the head of its
     /// table. \[°\]
     pub fn place(&self) -> Option<[f64; 2]> {
-        let of = |key: &str| {
-            let head = self.table.lines().take_while(|line| !line.is_empty());
-            let mut values = head.filter_map(|line| line.split_once('='));
-            values.find(|(name, _)| name.trim() == key).and_then(|(_, value)| value.trim().parse().ok())
-        };
+        let of = |key: &str| self.head(key)?.parse().ok();
         Some([of("latitude")?, of("longitude")?])
+    }
+
+    /// Whether the data of a weather station are those of this year.
+    pub fn is_of(&self, station: &Station) -> bool {
+        self.head("name") == Some(station.name.as_str()) && self.place() == Some([station.latitude, station.longitude])
+    }
+
+    /// Returns the value of a key in the head of the year's table.
+    fn head(&self, key: &str) -> Option<&'static str> {
+        let head = self.table.lines().take_while(|line| !line.is_empty());
+        let mut values = head.filter_map(|line| line.split_once('='));
+        values.find(|(name, _)| name.trim() == key).map(|(_, value)| value.trim())
     }
 }
 

@@ -150,7 +150,7 @@ texts! {
     const NO_WEATHER = "none" | "keines";
     const WEATHER_PATH_TIP = "Sets the path, relative to the folder of the scene; files can also be dropped on the window" | "Legt den Pfad fest, vom Ordner der Szene aus; Dateien lassen sich auch ins Fenster ziehen";
     const CALENDAR_TIP = "Click an hour, or use the arrow keys, to set the date, time and sky of the scene" | "Eine Stunde anklicken oder mit Pfeiltasten wählen, um Zeitpunkt und Himmel der Szene zu setzen";
-    fn weather_is(name, place, source) = "{name}, {place}. {source}" | "{name}, {place}. {source}";
+    fn weather_is(place, source) = "{place}. {source}" | "{place}. {source}";
     fn clock_off(minutes) = "Its times do not match its irradiances; they agree with an offset of {minutes} min" | "Ihre Zeiten passen nicht zu ihren Bestrahlungsstärken; mit {minutes} min Versatz stimmen sie überein";
     const WEATHER_GAPS = "The weather file has gaps" | "Die Wetterdatei hat Lücken";
     const WEATHER_ORDER = "Rows of the weather file overlap, are repeated or misplaced" | "Zeilen der Wetterdatei überschneiden sich, sind doppelt oder am falschen Platz";

@@ -434,7 +434,7 @@ const NO_WORDS: [(&str, &str); 18] = [
     ("src/app/desktop.rs", "said on the terminal, where no window is"),
     ("src/app/display/language.rs", "languages by their own names"),
     ("src/app/goniophotometer/examples.rs", "system files, a format of its own"),
-    ("src/app/panels/compare/curves.rs", "the name of a plot"),
+    ("src/app/compare/curves.rs", "the name of a plot"),
     ("src/app/panels/goniophotometer.rs", "the beginning of a system file"),
     ("src/app/panels/import.rs", "the name of an area"),
     ("src/app/results/backend.rs", "products of tests' catalogues"),

@@ -155,17 +155,18 @@ fn nothing_is_computed_that_is_not_shown_and_what_is_known_is_not_computed_again
     act(&mut harness, Act::Tile("Room"));
     // Both were shown before: their rooms are known.
     assert_eq!(counts(), before);
-    let totals = |app: &App, place: usize| app.compare.list[place].results.room.value.as_ref().unwrap().total(0).value;
+    let totals =
+        |app: &App, place: usize| app.compare.candidates()[place].results.room.value.as_ref().unwrap().total(0).value;
     assert_eq!([totals(harness.state(), 0), totals(harness.state(), 1)], [1500.0, 1000.0]);
     // At another hour the window asks for its own, the comparison for the other one alone.
     apply(&mut harness, Command::Hour(1));
     assert_eq!(counts(), [before[0] + 2, before[1] + 1]);
-    assert!(!harness.state().compare.list[0].results.room.stale);
+    assert!(!harness.state().compare.candidates()[0].results.room.stale);
     // Back at the tiles nobody asks for the candidates.
     act(&mut harness, Act::Show);
     apply(&mut harness, Command::Hour(1));
     assert_eq!(counts(), [before[0] + 3, before[1] + 2]);
-    assert!(harness.state().compare.list[0].results.room.stale);
+    assert!(harness.state().compare.candidates()[0].results.room.stale);
 }
 
 #[test]
@@ -179,11 +180,11 @@ fn a_comparison_under_way_is_told_and_stops_when_asked() {
     assert!(harness.query_all_by_label_contains("comparison").count() > 0, "the status line says so");
     harness.state_mut().apply(Command::Cancel(Lane::Compare));
     harness.run_steps(3);
-    assert!(!harness.state().busy() && harness.state().compare.stopped);
-    assert!(harness.state().compare.list[0].results.room.stale);
+    assert!(!harness.state().busy() && harness.state().compare.is_stopped());
+    assert!(harness.state().compare.candidates()[0].results.room.stale);
     drop(gate);
     act(&mut harness, Act::Resume);
-    assert!(!harness.state().compare.list[0].results.room.stale);
+    assert!(!harness.state().compare.candidates()[0].results.room.stale);
 }
 
 #[test]
@@ -229,7 +230,8 @@ fn all_looks_draw_all_tiles_and_the_table_marks_what_is_better_by_more_than_the_
                 assert_eq!(harness.query_all_by_label_contains("Difference of ").count(), 2);
             }
         }
-        let errors = harness.state().compare.list.iter().filter_map(|column| column.error()).collect::<Vec<_>>();
+        let errors =
+            harness.state().compare.candidates().iter().filter_map(|column| column.error()).collect::<Vec<_>>();
         assert!(errors.is_empty(), "{errors:?}");
     }
     // A clear opening sends nothing up, a diffuser half: the better one is marked.
@@ -245,7 +247,7 @@ fn all_looks_draw_all_tiles_and_the_table_marks_what_is_better_by_more_than_the_
     act(&mut harness, Act::Tile("Room"));
     let state = harness.state();
     let greatest = |place: usize| {
-        let room = state.compare.list[place].results.room.value.as_ref().unwrap();
+        let room = state.compare.candidates()[place].results.room.value.as_ref().unwrap();
         room.totals().map(|one| one.value).fold(0.0, f64::max)
     };
     let brightest = (0..3).map(greatest).fold(0.0, f64::max);
@@ -293,7 +295,7 @@ fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
     for tile in ["BTDF", "Transmittance", "Sky", "LID", "Room"] {
         act(&mut harness, Act::Tile(tile));
         harness.run_steps(2);
-        let column = &harness.state().compare.list[1];
+        let column = &harness.state().compare.candidates()[1];
         assert!(column.error().is_none() && column.state.dataset.value.is_some(), "{tile}: {:?}", column.error());
     }
     act(&mut harness, Act::Tile("BTDF"));
@@ -320,10 +322,8 @@ fn a_candidate_from_a_file_has_its_tiles_and_the_other_one_its_surfaces() {
 fn one_legend_stands_for_all_and_its_kind_is_chosen_for_all() {
     let (mut harness, _) = two();
     let tile = |title: &str| TILES.iter().map(|entry| entry.tile).find(|tile| tile.title == title).unwrap();
-    let logs = |harness: &mut Harness<'_, App>, title: &str| -> Vec<bool> {
-        let columns = &mut harness.state_mut().compare.list;
-        columns.iter_mut().map(|column| *column.bench.log(tile(title)).unwrap()).collect()
-    };
+    let logs =
+        |harness: &mut Harness<'_, App>, title: &str| -> Vec<bool> { harness.state_mut().compare.logs(tile(title)) };
     for (title, log) in [("Room", true), ("BTDF", false), ("Sky", false)] {
         act(&mut harness, Act::Tile(title));
         harness.run_steps(2);

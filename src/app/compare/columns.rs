@@ -9,7 +9,7 @@ use crate::app::scene::incidence::Incidence;
 use crate::app::scene::room_look::RoomView;
 use crate::app::scene::selection_of;
 use crate::app::shell::error::AppError;
-use crate::app::state::{CatalogueState, Daylight, Document, Results, Settings, Shown, State};
+use crate::app::state::{CatalogueState, Daylight, Document, Results, Settings, Shown, State, Tile};
 use crate::app::tiles::Bench;
 use crate::app::views::Cache;
 use crate::app::views::difference::{self, Picture};
@@ -212,17 +212,17 @@ pub type PictureKey = (ScaleKey, usize, Vec<String>);
 #[derive(Default)]
 pub struct Columns {
     /// Candidates in the order of the comparison.
-    pub list: Vec<Column>,
+    pub(super) list: Vec<Column>,
     /// Candidate (by its identity) and kind of results that are being computed.
-    pub running: Option<(u64, Part)>,
+    pub(super) running: Option<(u64, Part)>,
     /// Whether the user has stopped the computation, until something changes.
-    pub stopped: bool,
+    pub(super) stopped: bool,
     /// Cache of the common colour scale, its lowest and highest value.
-    pub scale: Cache<ScaleKey, Option<[f64; 2]>>,
+    pub(super) scale: Cache<ScaleKey, Option<[f64; 2]>>,
     /// Cache of the differences of all candidates from the reference.
-    pub differences: Cache<PictureKey, Vec<Option<Picture>>>,
+    pub(super) differences: Cache<PictureKey, Vec<Option<Picture>>>,
     /// Cache of the plots of all candidates.
-    pub plots: Cache<PictureKey, Vec<Plot>>,
+    pub(super) plots: Cache<PictureKey, Vec<Plot>>,
     next: u64,
     seen: Option<(SceneFile, PathBuf)>,
 }
@@ -296,6 +296,21 @@ impl Columns {
         let columns: Vec<&Column> = columns.filter_map(|place| self.list.get(place)).collect();
         // Part by part: all have their first picture before one has its last figure.
         parts.iter().find_map(|part| columns.iter().find(|column| column.lacks(*part)).map(|column| (*column, *part)))
+    }
+
+    /// Returns the candidates in the order of the comparison.
+    pub fn candidates(&self) -> &[Column] {
+        &self.list
+    }
+
+    /// Whether the user has stopped the computation.
+    pub const fn is_stopped(&self) -> bool {
+        self.stopped
+    }
+
+    /// Returns for every candidate whether the scale of a tile is logarithmic; empty if the tile has no such choice.
+    pub fn logs(&mut self, tile: Tile) -> Vec<bool> {
+        self.list.iter_mut().filter_map(|column| column.bench.log(tile).copied()).collect()
     }
 
     /// Returns the names of the candidates, each with its position so that no two are equal.

@@ -1,7 +1,12 @@
-//! Execution of commands about the comparison: its list, the computation of candidates, and commands from the tiles of
-//! a candidate.
+//! The comparison: its list, the computation of candidates, commands from the tiles of a candidate, and its drawing.
 
+mod beside;
 pub mod columns;
+mod curves;
+mod difference;
+mod figures;
+pub mod panel;
+mod places;
 pub mod view;
 
 use crate::app::catalogue::library::WindowLibrary;

@@ -25,24 +25,18 @@ pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
         app.shell.state.settings.layout = None;
         app.shell.toasts.warning(say::layout_unreadable(problem));
     }
-    app.shell.bench.times.clear();
+    let mut tree = app.shell.bench.begin_frame();
     let whole = ui.available_rect_before_wrap();
     if let Some(tile) = app.shell.state.maximised {
-        app.shell.bench.places = vec![(tile, whole)];
         frame(ui, whole, tile, app, commands);
+        app.shell.bench.end_frame(tree, false);
         return;
     }
-    // The tiles are drawn by the tile area that holds the tree.
-    let mut tree = std::mem::replace(&mut app.shell.bench.tree, Tree::empty(egui::Id::unique("bench")));
-    app.shell.bench.places.clear();
     let spacing = tab_spacing(ui, &tree);
     let mut behaviour = Docking { app, commands, edited: false, spacing };
     tree.ui(&mut behaviour, ui);
     let edited = behaviour.edited;
-    app.shell.bench.tree = tree;
-    if edited {
-        let text = app.shell.bench.layout().text();
-        app.shell.bench.text = Some(text.clone());
+    if let Some(text) = app.shell.bench.end_frame(tree, edited) {
         app.shell.state.settings.layout = Some(text);
     }
 }
@@ -80,7 +74,6 @@ struct Docking<'a> {
 impl Behavior<Tile> for Docking<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _id: TileId, tile: &mut Tile) -> UiResponse {
         let rect = ui.max_rect();
-        self.app.shell.bench.places.push((*tile, rect));
         let dragged = frame(ui, rect, *tile, self.app, self.commands);
         if dragged { UiResponse::DragStarted } else { UiResponse::None }
     }
@@ -140,6 +133,7 @@ impl Behavior<Tile> for Docking<'_> {
 /// Draws a tile with its background and head. Returns `true` in the frame in which a drag of the tile starts.
 fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<Command>) -> bool {
     let palette = theme::palette(ui);
+    app.shell.bench.place(tile, rect);
     let head = Rect::from_min_size(rect.min, vec2((rect.width() * 0.5).min(120.0), 26.0));
     let response = ui.interact(head, egui::Id::unique(("tile", tile.title)), Sense::click_and_drag());
     let line = if response.has_focus() { Stroke::new(2.0, palette.accent) } else { Stroke::new(1.0, palette.line) };
@@ -147,15 +141,7 @@ fn frame(ui: &mut Ui, rect: Rect, tile: Tile, app: &mut App, commands: &mut Vec<
     let response = response.on_hover_text(say::head_tip(TILES.len()));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Button, true, say::tile_named(tile.name)));
     response.context_menu(|ui| menu(ui, tile, commands));
-    // The head that has the keyboard is not asked while another one is about to get it.
-    let focused = response.has_focus() && !app.shell.bench.to_focus;
-    if response.clicked() || response.secondary_clicked() || response.drag_started() || focused {
-        app.shell.bench.in_hand = tile;
-    }
-    if app.shell.bench.to_focus && app.shell.bench.in_hand == tile {
-        app.shell.bench.to_focus = false;
-        response.request_focus();
-    }
+    app.shell.bench.follow_head(tile, &response);
     let fill = Command::Maximise(if app.shell.state.maximised.is_some() { None } else { Some(tile) });
     if response.double_clicked() {
         commands.push(fill.clone());

@@ -4,7 +4,6 @@
 mod about;
 pub mod bench;
 mod catalogue;
-mod compare;
 mod export;
 mod fields;
 mod goniophotometer;
@@ -20,6 +19,7 @@ mod status;
 mod tour;
 
 use super::command::Command;
+use super::compare::panel as compare;
 use super::state::Sheet;
 use super::window::App;
 use crate::app::display::theme;
@@ -95,7 +95,7 @@ pub fn show(ui: &mut egui::Ui, app: &mut App) -> Vec<Command> {
     if let Some(sheet) = wide {
         centre.frame(side).show(ui, |ui| sheets::show(ui, app, sheet, &mut commands));
     } else if app.shell.state.compare.open {
-        centre.frame(ground).show(ui, |ui| compare::show(ui, app, &mut commands));
+        centre.frame(ground).show(ui, |ui| compare::show(ui, &app.shell.state, &mut app.compare, &mut commands));
     } else {
         let from = commands.len();
         centre.frame(ground).show(ui, |ui| bench::show(ui, app, &mut commands));

@@ -3,7 +3,6 @@
 
 use crate::app::command::Command;
 use crate::app::display::theme;
-use crate::app::state::Tile;
 use crate::app::tiles::{LID, ROOM, SKY};
 use crate::app::tour::step::{Stop, TourAct};
 use crate::app::window::App;
@@ -52,19 +51,14 @@ pub fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
 }
 
-/// Returns the rectangle of a tile; `None` if it is not visible.
-fn place_of(app: &App, tile: Tile) -> Option<Rect> {
-    app.shell.bench.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
-}
-
 /// Draws the frame round the part of the window that the current step uses, in front of everything else.
 pub fn ring(ui: &Ui, app: &App, places: &Places) {
     let Some(stop) = app.tour.stop() else { return };
     let menu = |menu: Text| places.menus.iter().find(|(one, _)| *one == menu).map(|(_, rect)| *rect);
     let list: Vec<Rect> = match stop {
         Stop::Product => places.catalogue.into_iter().collect(),
-        Stop::Sun => place_of(app, SKY).into_iter().collect(),
-        Stop::Light => [LID, ROOM].into_iter().filter_map(|tile| place_of(app, tile)).collect(),
+        Stop::Sun => app.shell.bench.place_of(SKY).into_iter().collect(),
+        Stop::Light => [LID, ROOM].into_iter().filter_map(|tile| app.shell.bench.place_of(tile)).collect(),
         Stop::Compare => menu(COMPARE).into_iter().collect(),
         Stop::Export => menu(FILE).into_iter().collect(),
     };

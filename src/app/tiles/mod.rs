@@ -31,7 +31,7 @@ use super::command::Command;
 use super::paint::tile::waiting;
 use super::state::{Results, State, Tile};
 use crate::app::shell::jobs::Lane;
-use egui::{Rect, Ui};
+use egui::{Id, Rect, Response, Ui};
 use egui_tiles::Tree;
 use std::time::{Duration, Instant};
 
@@ -61,17 +61,17 @@ pub const TILES: &[Entry] = &[
 /// Tiles of one window or one candidate of the comparison, and their arrangement.
 pub struct Bench {
     /// Arrangement of the tiles as it is drawn by egui_tiles.
-    pub tree: Tree<Tile>,
+    tree: Tree<Tile>,
     /// Stored text of the arrangement `tree`; `None` for the arrangement of a first start.
-    pub text: Option<String>,
+    text: Option<String>,
     /// Visible tiles and their rectangles in the last frame, in order.
-    pub places: Vec<(Tile, Rect)>,
+    places: Vec<(Tile, Rect)>,
     /// Active tile: the one last under the pointer or last reached by keys.
-    pub in_hand: Tile,
+    in_hand: Tile,
     /// Whether the active tile is to get the keyboard focus in the next frame.
-    pub to_focus: bool,
+    to_focus: bool,
     /// Time that drawing each visible tile took in the last frame.
-    pub times: Vec<(Tile, Duration)>,
+    times: Vec<(Tile, Duration)>,
     drawn: Vec<(Tile, Box<dyn Drawn>)>,
 }
 
@@ -125,6 +125,49 @@ impl Bench {
         let read = text.map_or_else(|| Ok(first()), |text| Layout::read(text, &all()));
         self.tree = read.as_ref().cloned().unwrap_or_else(|_| first()).tree();
         read.map(drop)
+    }
+
+    /// Begins a frame, in which no tile is visible yet. Returns the arrangement, which [`Self::end_frame`] takes back.
+    pub fn begin_frame(&mut self) -> Tree<Tile> {
+        self.times.clear();
+        self.places.clear();
+        std::mem::replace(&mut self.tree, Tree::empty(Id::unique("bench")))
+    }
+
+    /// Ends a frame. `edited`: whether the user has changed the arrangement. Returns the text to be stored if so.
+    pub fn end_frame(&mut self, tree: Tree<Tile>, edited: bool) -> Option<String> {
+        self.tree = tree;
+        let text = edited.then(|| self.layout().text())?;
+        self.text = Some(text.clone());
+        Some(text)
+    }
+
+    /// Records the rectangle of a tile that is visible in this frame.
+    pub fn place(&mut self, tile: Tile, rect: Rect) {
+        self.places.push((tile, rect));
+    }
+
+    /// Returns the rectangle of a tile; `None` if it is not visible.
+    pub fn place_of(&self, tile: Tile) -> Option<Rect> {
+        self.places.iter().find(|(one, _)| *one == tile).map(|(_, rect)| *rect)
+    }
+
+    /// Returns the time that drawing each visible tile took in the last frame.
+    pub fn times(&self) -> &[(Tile, Duration)] {
+        &self.times
+    }
+
+    /// Makes a tile the active one if its head is used, or gives its head the keyboard focus if it is to get it.
+    pub fn follow_head(&mut self, tile: Tile, head: &Response) {
+        // The head that has the keyboard is not asked while another one is about to get it.
+        let focused = head.has_focus() && !self.to_focus;
+        if head.clicked() || head.secondary_clicked() || head.drag_started() || focused {
+            self.in_hand = tile;
+        }
+        if self.to_focus && self.in_hand == tile {
+            self.to_focus = false;
+            head.request_focus();
+        }
     }
 
     /// Returns the visible tiles. `maximised`: tile that fills the tile area and hides the others.

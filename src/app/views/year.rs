@@ -11,6 +11,7 @@ pub use input::{Action, Input, Shown};
 
 use crate::app::paint::hour_map;
 use crate::app::paint::tile::{self, Status, Words};
+use crate::study::scene_words;
 use crate::study::year::{Page, Shows, Year, choices, csv_column, error, title};
 use crate::texts::{fixed, words::MONTHS, year as say};
 use egui::{ComboBox, Rect, Ui, UiBuilder};
@@ -201,7 +202,7 @@ fn summary(shown: &Shown<'_>) -> String {
     let year = shown.year;
     let lit = year.chosen.len() - year.light.dark;
     let seconds: f64 = year.spent.iter().map(|(_, time)| time.as_secs_f64()).sum();
-    say::summary(&year.steps.station.name, lit, year.light.sets, fixed(seconds, 1))
+    say::summary(scene_words::station(&year.steps.station), lit, year.light.sets, fixed(seconds, 1))
 }
 
 /// Returns the numbers of the page shown as CSV.

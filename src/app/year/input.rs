@@ -8,8 +8,8 @@ use crate::study::weather::{YEARS, kept, moment, nearest};
 use crate::study::weather_keys::{LightKey, OffsetKey, reading};
 use crate::study::year::{Look, weather_map};
 use crate::study::year_keys::{DaysKey, EyeKeys, HoursKeys, LampControlKey, LightingKeys, SunlightKeys, YearKeys};
-use crate::study::{StudyError, example::first_scene};
-use crate::texts::{fixed, year as say};
+use crate::study::{StudyError, example::first_scene, scene_words};
+use crate::texts::{one_line, year as say};
 use jiff::civil::DateTime;
 use std::path::{Path, PathBuf};
 
@@ -165,9 +165,7 @@ pub fn put_record(scene: &mut SceneFile, weather: &Path, time: DateTime) {
 
 /// Returns name, coordinates and data source of a weather station as text.
 pub fn station_words(station: &Station) -> String {
-    let place = crate::study::scene_words::coordinates(station.latitude, station.longitude);
-    let name = if station.name.is_empty() { fixed(station.elevation, 0) } else { station.name.clone() };
-    say::weather_is(crate::texts::one_line(&name), place, crate::texts::one_line(&station.source))
+    say::weather_is(scene_words::station_place(station), one_line(&station.source))
 }
 
 #[cfg(test)]

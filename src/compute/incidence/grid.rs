@@ -153,7 +153,7 @@ impl Grid {
         let (theta, phi) = (centre.truncate().length().atan2(centre.z), centre.y.atan2(centre.x));
         let rings = self.basis.rings();
         let own = self.basis.azimuth().own_phi(phi);
-        let (sin_radius, cos_radius) = radius.sin_cos();
+        let sin_radius = radius.sin();
         for &index in &self.order {
             let ring = &rings[index];
             if ring.theta_max < theta - radius {
@@ -163,14 +163,8 @@ impl Grid {
                 break;
             }
             let first = self.basis.first_cell(index);
-            // Half width in azimuth of the cap: all round when it holds the pole.
-            let reach = if theta > radius && sin_radius < theta.sin() {
-                // Widest where tanθ = ... the tangent meridian; a little more than needed elsewhere.
-                (sin_radius / theta.sin()).asin()
-            } else {
-                PI
-            };
-            let _ = cos_radius;
+            // Half width of the cap in azimuth, up to its tangent meridians; all round if it contains the pole.
+            let reach = if theta > radius && sin_radius < theta.sin() { (sin_radius / theta.sin()).asin() } else { PI };
             let width = 2.0 * PI / ring.sectors as f64;
             let from = ((own - reach - ring.first_phi) / width).floor() as i64;
             let count = ((2.0 * reach / width).ceil() as usize + 2).min(ring.sectors);

@@ -36,7 +36,7 @@ const STANDS: f64 = 1e-4;
 /// results change within their stated error, the difference to every other pair.
 const PARTS: usize = 64;
 /// Number of pairs of directions that show whether anything is redirected, and that scattered light is averaged over at
-/// grazing incidence. Chosen: cost; for light by profile angle the difference to the disc's middle is stated as error.
+/// grazing incidence. Chosen: cost; the error of that average is stated, see `sun_through`.
 pub(super) const FEW: usize = 3;
 /// Numbers of strips of the disc, and of pairs of directions in all of them together, for systems that depend on a
 /// profile angle alone: tried in this order until the middles of strips represent the strips. Chosen: cost; results

@@ -31,16 +31,20 @@ pub fn glare(steps: &[Step], eyes: Light<'_>, sun: Option<Light<'_>>) -> Vec<Gla
     let of = |eye: usize| {
         let occupied = || (0..steps.len()).filter(|&k| steps[k].occupied);
         let at_eye = |k: &usize| sun.is_some_and(|sun| sun.at(*k, eye) > 0.0);
-        let mut values: Vec<f64> = occupied().filter(|k| !at_eye(k)).map(|k| dgps(eyes.at(k, eye))).collect();
-        values.sort_by(|a, b| b.total_cmp(a));
-        let rank = (EXCEEDED * values.len() as f64) as usize;
-        Glare {
-            sun_at_eye: occupied().filter(at_eye).count(),
-            dgps_5_percent: values.get(rank).copied().unwrap_or(0.0),
-            above: LIMITS.map(|limit| share(values.iter().filter(|value| **value > limit).count(), values.len())),
-        }
+        let values = occupied().filter(|k| !at_eye(k)).map(|k| dgps(eyes.at(k, eye))).collect();
+        let (dgps_5_percent, above) = exceeded(values);
+        Glare { sun_at_eye: occupied().filter(at_eye).count(), dgps_5_percent, above }
     };
     (0..eyes.places()).map(of).collect()
+}
+
+/// Returns the glare probability that is exceeded in at most the share [`EXCEEDED`] of the values `values`, 0 without
+/// any, and the shares of the values above each of [`LIMITS`].
+pub(super) fn exceeded(mut values: Vec<f64>) -> (f64, [f64; 3]) {
+    values.sort_by(|a, b| b.total_cmp(a));
+    let rank = (EXCEEDED * values.len() as f64) as usize;
+    let above = |limit: f64| share(values.iter().filter(|value| **value > limit).count(), values.len());
+    (values.get(rank).copied().unwrap_or(0.0), LIMITS.map(above))
 }
 
 #[cfg(test)]

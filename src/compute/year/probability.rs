@@ -1,14 +1,10 @@
 //! Glare of an observer through the occupied steps by the daylight glare probability, and its class by EN 17037, Annex
 //! E: DGP that is exceeded in no more than 5 % of the usage time. Dark steps are usage time, too, and have no glare.
 
-use super::glare::LIMITS;
-use super::hours::share;
+use super::glare::{LIMITS, exceeded};
 
 /// Levels of glare protection of EN 17037, Annex E, in the order of the rising [`LIMITS`] of DGP.
 pub const CLASSES: [&str; 3] = ["high", "medium", "minimum"];
-/// Share of the usage time in which the limit of DGP of a level of glare protection may be exceeded. Source: EN 17037,
-/// Annex E.
-const EXCEEDED: f64 = 0.05;
 
 /// Annual DGP figures of one observer.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -21,13 +17,9 @@ pub struct Probability {
 
 impl Probability {
     /// Computes the annual figures from `values`, the DGP in every occupied step, 0 in dark ones.
-    pub fn of(mut values: Vec<f64>) -> Self {
-        values.sort_by(|a, b| b.total_cmp(a));
-        let rank = (EXCEEDED * values.len() as f64) as usize;
-        Self {
-            dgp_5_percent: values.get(rank).copied().unwrap_or(0.0),
-            above: LIMITS.map(|limit| share(values.iter().filter(|value| **value > limit).count(), values.len())),
-        }
+    pub fn of(values: Vec<f64>) -> Self {
+        let (dgp_5_percent, above) = exceeded(values);
+        Self { dgp_5_percent, above }
     }
 
     /// Returns the best of [`CLASSES`], the levels of glare protection, that the DGP exceeded in 5 % of the occupied

@@ -5,6 +5,7 @@ use crate::drawing::colours::Inks;
 use crate::drawing::plot::{Axis, Plot, Unit};
 use crate::drawing::{Align, Drawing, Frame, Shape, TEXT};
 use crate::study::moment;
+use crate::study::scene_words;
 use crate::study::subject::Subject;
 use crate::study::year::{Annual, Look, Page, day, day_plot, day_words, map, months, sunniest, title};
 use crate::texts::{fixed, year as texts};
@@ -21,7 +22,7 @@ pub(super) fn year(drawing: &mut Drawing, frame: Frame, subject: &Subject, inks:
         map.cell(step.month, step.time.day().unsigned_abs(), minute)
     });
     map.draw(drawing, frame, mark, inks);
-    let mut parts = vec![title(look.shows), annual.year.steps.station.name.clone()];
+    let mut parts = vec![title(look.shows), scene_words::station(&annual.year.steps.station)];
     parts.extend(mark.map(|cell| texts::cell_is(map.when(cell), map.words(cell))));
     Ok(parts.join(" · "))
 }

@@ -133,6 +133,8 @@ impl ByDescription {
                 None => self.lattice.add(model, &self.views.cells, direction, e, light, errors),
             }
         }
+        let averaging = SunThrough::averaging_error(facing);
+        errors.iter_mut().zip(light).for_each(|(error, e)| *error += averaging * e.abs());
         sum
     }
 }

@@ -6,17 +6,17 @@ use crate::app::display::theme;
 use crate::app::panels::fields::{lines, number, typed};
 use crate::app::shell::typed_path::typed_path;
 use crate::app::state::Shown;
-use crate::app::title::coordinates;
 use crate::app::views::calendar;
 use crate::app::year::input::{Calendar, YearAct, station_words, usual_eye, usual_lamps, weather_of};
 use crate::compute::weather::Station;
 use crate::study::moment;
 use crate::study::places::{nearest, summer_time};
 use crate::study::scene_file::{DstKey, SceneFile};
+use crate::study::scene_words;
 use crate::study::sky::{HIGHEST, LOWEST, is_elsewhere};
 use crate::study::weather::{YEARS, short_name, warning_words, words};
 use crate::study::year_keys::{DaysKey, LampControlKey, YearKeys};
-use crate::texts::{Text, fixed, one_line, year as texts};
+use crate::texts::{Text, fixed, year as texts};
 use egui::{ComboBox, Label, RichText, Ui};
 
 /// Weather data of the scene as they were read, and the state of their calendar.
@@ -123,9 +123,7 @@ fn calendar_ui(ui: &mut Ui, scene: &mut SceneFile, weather: Weather<'_>, command
 /// Draws a warning that the site of the scene differs from the station of the weather data, and a button that adopts
 /// the station as the site.
 fn elsewhere(ui: &mut Ui, scene: &mut SceneFile, station: &Station) {
-    let place = coordinates(station.latitude, station.longitude);
-    let name = if station.name.is_empty() { place } else { one_line(&station.name).into() };
-    lines(ui, &texts::weather_elsewhere(name), theme::palette(ui).warning, 3);
+    lines(ui, &texts::weather_elsewhere(scene_words::station(station)), theme::palette(ui).warning, 3);
     if ui.button(texts::TAKE_PLACE).on_hover_text(texts::TAKE_PLACE_TIP).clicked() {
         let site = &mut scene.site;
         site.latitude = Some(station.latitude);

@@ -4,11 +4,9 @@ use super::shape::{OnTree, OnTreeError, TreeShape};
 use crate::compute::basis::SquareGrid;
 use crate::compute::btdf::tensor_tree::{TensorTree, TreeAxes, TreeNode, TreeRank};
 use crate::compute::direction::{Dir, Incident};
+use crate::compute::limits::TREE_NODES;
 use rayon::prelude::*;
 
-/// Maximum number of nodes of a tree that the reader of files takes:
-/// [`TREE_NODES`](crate::compute::limits::TREE_NODES).
-const MOST_NODES: usize = 8 << 20;
 /// Mean absolute deviation in a box, relative to its mean, up to which its values count as equal except for rounding.
 /// Sums of up to 10⁴ terms round to 2⁻⁵² · 10⁴ ≈ 2e-12; held by the test `a_diffuser_is_one_leaf`.
 const ROUNDING: f64 = 1e-10;
@@ -138,8 +136,8 @@ impl Grid<'_> {
             return Ok(());
         }
         let (start, children) = (nodes.len(), self.shape.rank.children());
-        if start + children > MOST_NODES {
-            return Err(OnTreeError::Size { most: MOST_NODES });
+        if start + children > TREE_NODES {
+            return Err(OnTreeError::Size { most: TREE_NODES });
         }
         nodes[place] = TreeNode::Branch(start as u32);
         nodes.resize(start + children, TreeNode::Leaf(0.0));

@@ -1,7 +1,7 @@
 //! Endless array of slats: dimensions and finishes, checked.
 
 use super::profile::SlatProfile;
-use crate::compute::limits;
+use crate::compute::limits::{self, SLAT_POINTS};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
 /// Finish of one side of a slat: diffuse and specular reflectance.
@@ -51,9 +51,6 @@ pub struct SlatArray {
     lower: Surface,
 }
 
-/// Maximum number of points of a described profile. Chosen: limit of input; larger values are refused.
-const MOST_POINTS: usize = 400;
-
 fn check(key: &'static str, value: f64, right: bool, allowed: impl Into<String>) -> Result<(), SlatError> {
     if right { Ok(()) } else { Err(SlatError { key, value: format!("{value}"), allowed: allowed.into() }) }
 }
@@ -83,7 +80,7 @@ fn check_profile(profile: &SlatProfile) -> Result<f64, SlatError> {
         }
         SlatProfile::Polyline(points) => {
             let count = points.len();
-            check("profile", count as f64, (2..=MOST_POINTS).contains(&count), format!("2 to {MOST_POINTS} points"))?;
+            check("profile", count as f64, (2..=SLAT_POINTS).contains(&count), format!("2 to {SLAT_POINTS} points"))?;
             for pair in points.windows(2) {
                 let length = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
                 let right = length.is_finite() && length > 0.0;

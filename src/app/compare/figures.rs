@@ -2,9 +2,9 @@
 //! difference exceeds the errors.
 
 use crate::app::command::Command;
+use crate::app::compare::columns::Columns;
 use crate::app::compare::view::Act;
 use crate::app::display::theme;
-use crate::app::window::App;
 use crate::study::comparison::{Row, Value, Verdict, verdict_words};
 use crate::texts::compare as texts;
 use egui::{Grid, Label, RichText, ScrollArea, Ui};
@@ -76,11 +76,11 @@ const COLUMN: f32 = 134.0;
 const OUTER: f32 = 370.0;
 
 /// Draws the table of figures, or the lines that replace it in little space.
-pub(super) fn show(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let (rows, names) = (app.compare.rows(), app.compare.names());
+pub(super) fn show(ui: &mut Ui, columns: &Columns, commands: &mut Vec<Command>) {
+    let (rows, names) = (columns.rows(), columns.names());
     let palette = theme::palette(ui);
     ScrollArea::vertical().id_salt("figures").auto_shrink([false, false]).show(ui, |ui| {
-        for (column, name) in app.compare.list.iter().zip(&names) {
+        for (column, name) in columns.list.iter().zip(&names) {
             if let Some(error) = column.error() {
                 let text = RichText::new(format!("{name}: {error}")).color(palette.error);
                 ui.add(Label::new(text).wrap());

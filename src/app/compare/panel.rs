@@ -1,22 +1,17 @@
 //! The line with the candidates of the comparison, always visible while there are any, and the comparison itself, which
 //! replaces the tile area.
 
-mod beside;
-mod curves;
-mod difference;
-mod figures;
-mod places;
-
+use super::columns::Columns;
+use super::places::{short, tile_words};
+use super::{beside, curves, difference, figures};
 use crate::app::command::Command;
 use crate::app::compare::view::{Act, Look};
 use crate::app::display::theme;
 use crate::app::state::State;
 use crate::app::tiles;
-use crate::app::window::App;
 use crate::study::comparison::label;
 use crate::texts::{Text, compare as texts};
 use egui::{Align, Key, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
-use places::{short, tile_words};
 
 /// Mean width of a letter in the chip of a candidate. \[points\]
 const LETTER: f32 = 7.2;
@@ -116,26 +111,26 @@ fn chip(ui: &mut Ui, state: &State, place: usize, width: f32, act: &mut impl FnM
 }
 
 /// Draws the comparison in the space of the tile area.
-pub fn show(ui: &mut Ui, app: &mut App, commands: &mut Vec<Command>) {
+pub fn show(ui: &mut Ui, state: &State, columns: &mut Columns, commands: &mut Vec<Command>) {
     let palette = theme::palette(ui);
     let whole = ui.available_rect_before_wrap();
     ui.painter().rect(whole, 6, palette.surface, egui::Stroke::new(1.0, palette.line), egui::StrokeKind::Inside);
     let builder = UiBuilder::new().max_rect(whole.shrink2(vec2(8.0, 6.0))).id_salt("comparison");
     ui.scope_builder(builder, |ui| {
-        ui.horizontal_wrapped(|ui| choices(ui, app, commands));
-        match app.shell.state.compare.look {
-            Look::Beside => beside::show(ui, &app.shell.state, &mut app.compare, commands),
-            Look::Difference => difference::show(ui, &app.shell.state, &mut app.compare),
-            Look::Curves => curves::show(ui, &app.shell.state, &mut app.compare),
-            Look::Figures => figures::show(ui, app, commands),
+        ui.horizontal_wrapped(|ui| choices(ui, state, columns, commands));
+        match state.compare.look {
+            Look::Beside => beside::show(ui, state, columns, commands),
+            Look::Difference => difference::show(ui, state, columns),
+            Look::Curves => curves::show(ui, state, columns),
+            Look::Figures => figures::show(ui, columns, commands),
         }
     });
 }
 
 /// Draws the choices of the kind of comparison (tiles side by side, curves, difference, figures) and of the tile that
 /// is compared.
-fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
-    let view = &app.shell.state.compare;
+fn choices(ui: &mut Ui, state: &State, columns: &Columns, commands: &mut Vec<Command>) {
+    let view = &state.compare;
     let mut act = |act: Act| commands.push(Command::Compare(act));
     for look in Look::ALL {
         if ui.selectable_label(view.look == look, look.words()).on_hover_text(look.tip()).clicked() {
@@ -155,7 +150,7 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
     }
     if view.look == Look::Difference {
         ui.label(texts::LESS);
-        let names = app.compare.names();
+        let names = columns.names();
         let base = names.get(view.base).map_or("", String::as_str);
         let combo = egui::ComboBox::from_id_salt("base").width(130.0).selected_text(short(base, 18));
         let combo = combo.show_ui(ui, |ui| {
@@ -167,7 +162,7 @@ fn choices(ui: &mut Ui, app: &App, commands: &mut Vec<Command>) {
         });
         combo.response.on_hover_text(texts::BASE_CHOICE_TIP).accessible_name(texts::BASE_CHOICE.get());
     }
-    if app.compare.stopped && ui.button(texts::CONTINUE).on_hover_text(texts::CONTINUE_TIP).clicked() {
+    if columns.stopped && ui.button(texts::CONTINUE).on_hover_text(texts::CONTINUE_TIP).clicked() {
         act(Act::Resume);
     }
     if ui.button(texts::CLOSE).on_hover_text(texts::CLOSE_TIP).clicked() {

@@ -31,7 +31,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns, commands: 
     let key = columns.key(tile.title);
     let Columns { list, scale: known, .. } = columns;
     let scale = *known.get(key, || scale(list, kind));
-    let log = list.first_mut().and_then(|column| column.bench.log(tile)).map(|own| state.compare.log.unwrap_or(*own));
+    let log = columns.logs(tile).first().map(|own| state.compare.log.unwrap_or(*own));
     let factor = kind == Some(TileKind::Room) && state.settings.room.daylight_factor;
     if let Some(range) = scale.filter(|_| !factor) {
         legend(ui, kind, range, log, commands);
