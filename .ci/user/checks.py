@@ -219,7 +219,7 @@ def keys(given):
     given.desk.start()
     given.desk.quiet()
     given.desk.key("question")
-    given.desk.need("^Keys")
+    given.desk.need("^Keyboard shortcuts$")
     words = given.desk.all_text()
     given.picture()
     expect("Bracket" not in words, "a key called Bracket")

@@ -85,7 +85,7 @@ class Day:
         shutil.copytree(os.path.join(self.given.data, "data/bsdf/tt_slats_b"), folder)
         os.chmod(folder, 0o755)
         self.start(folder)
-        add = self.desk.need("|".join([self.words.pattern("take_in.ADD_ONE"), self.words.pattern("take_in.add_many")]), wait=20)
+        add = self.desk.need("|".join([self.words.pattern("import.ADD_ONE"), self.words.pattern("import.add_many")]), wait=20)
         self.desk.quiet()
         self.picture("take-in")
         self.desk.click(add)
@@ -119,7 +119,7 @@ class Day:
 
     def hand_on(self):
         self.command(self.words("commands.EXPORT_LID").rstrip("…"))
-        write = self.words.pattern("hand_on.WRITE_TO")
+        write = self.words.pattern("export.WRITE_TO")
         self.desk.need(write, "entry")
         self.desk.quiet()
         self.picture("hand-on")

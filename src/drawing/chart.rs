@@ -5,7 +5,7 @@ use super::colours::Inks;
 pub use super::colours::SERIES;
 use super::font::width;
 use super::legend::{self, Name};
-use super::plot::{Axis, Form, Plot, Series};
+use super::plot::{Axis, Form, Plot, Series, crosses};
 use super::{Align, Drawing, Frame, Point, Shape, TEXT};
 use crate::texts::tiles as say;
 
@@ -143,6 +143,8 @@ impl Panel<'_> {
     /// so is a name that would cover others.
     fn guides(&self, drawing: &mut Drawing) {
         let mut used: Vec<Frame> = Vec::new();
+        let runs = self.plot.series.iter().flat_map(|series| self.plot.runs(series));
+        let lines: Vec<Vec<Point>> = runs.map(|run| run.into_iter().map(|point| self.place(point)).collect()).collect();
         for guide in &self.plot.guides {
             let ends: Vec<Point> = guide.ends.iter().filter_map(|end| self.of(*end)).collect();
             let inside = |axis: &Axis, k: usize| {
@@ -156,12 +158,16 @@ impl Panel<'_> {
             let at = ends[1];
             drawing.add(Shape::line(ends, self.inks.ink, 1.0));
             if !guide.name.is_empty() {
-                // Over its end, where another has its name further along.
+                // Over its end; where another has its name, or a line passes, further along.
                 let wide = width(&guide.name, TEXT) + 4.0;
                 let y = (at[1] - 8.0).max(self.area.top + 8.0);
-                let places = (0..3).map(|k| Frame::new(at[0] - 4.0 - wide * f64::from(k + 1), y - 8.0, wide, 16.0));
-                let free = |place: &Frame| used.iter().all(|other| !other.meets(place));
-                if let Some(place) = places.into_iter().find(free) {
+                let count = if guide.is_level() { (self.area.width / wide) as u32 } else { 3 };
+                let places = (0..count).map(|k| Frame::new(at[0] - 4.0 - wide * f64::from(k + 1), y - 8.0, wide, 16.0));
+                let free: Vec<Frame> = places.filter(|place| used.iter().all(|other| !other.meets(place))).collect();
+                let crossed = |place: &&Frame| {
+                    guide.is_level() && crosses(&lines, [place.left, place.right()], [place.top, place.bottom()])
+                };
+                if let Some(&place) = free.iter().find(|place| !crossed(place)).or(free.first()) {
                     let end = [place.right(), y];
                     drawing.add(Shape::words(end, guide.name.clone(), self.inks.ink, TEXT, Align::End));
                     used.push(place);
@@ -227,6 +233,27 @@ mod tests {
         assert_eq!(panel.of([1.0, 1.0]), Some([110.0, 20.0]));
         assert_eq!(panel.of([0.0, 1e9]), Some([10.0, 20.0]));
         assert_eq!(panel.of([f64::NAN, 1.0]), None);
+    }
+
+    #[test]
+    fn the_name_of_a_level_guide_stands_where_no_line_passes() {
+        let falling = Series::line("", [[0.0, 28.0], [2.0, 26.0], [2.2, 10.0], [6.0, 1.0]]);
+        let plot = Plot {
+            x: Axis::linear([0.0, 6.0], "", Unit::Named("m")),
+            y: Axis::linear([0.0, 30.0], "", Unit::Named("lx")),
+            series: vec![falling],
+            guides: vec![Guide { name: "limit".to_owned(), ends: [[0.0, 0.5], [6.0, 0.5]] }],
+        };
+        let mut drawing = Drawing::new(400.0, 300.0);
+        let panel = panel(&mut drawing, Frame::new(0.0, 0.0, 400.0, 300.0), &plot, &Inks::LIGHT);
+        let line: Vec<Point> = plot.runs(&plot.series[0])[0].iter().map(|point| panel.place(*point)).collect();
+        let ends = drawing.shapes.iter().filter_map(|shape| match shape {
+            Shape::Text { text, at, .. } if text == "limit" => Some(*at),
+            _ => None,
+        });
+        let [right, y] = ends.last().unwrap();
+        let free = |right: f64| !crosses(&[line.clone()], [right - width("limit", TEXT), right], [y - 8.0, y + 8.0]);
+        assert!(free(right) && !free(panel.place([6.0, 0.0])[0] - 4.0), "{right}");
     }
 
     #[test]

@@ -240,6 +240,13 @@ pub struct Plot {
     pub guides: Vec<Guide>,
 }
 
+impl Guide {
+    /// Whether the line is level, so that its name may be anywhere along it.
+    pub const fn is_level(&self) -> bool {
+        self.ends[0][1] == self.ends[1][1]
+    }
+}
+
 impl Plot {
     /// Returns the axis coordinates of a point given by its values on x and y (on a logarithmic axis the decimal
     /// logarithm); `None` if one is not a number.
@@ -259,6 +266,21 @@ impl Plot {
             Some([self.x.coordinate(*x)?, self.y.coordinate(*low)?, self.y.coordinate(*high)?])
         }))
     }
+}
+
+/// Whether one of the lines, each given by its points, passes through the rectangle with the ranges `x` and `y`, in the
+/// coordinates of the points.
+pub fn crosses(lines: &[Vec<[f64; 2]>], x: [f64; 2], y: [f64; 2]) -> bool {
+    let passes = |pair: &[[f64; 2]]| {
+        let [a, b] = if pair[0][0] <= pair[1][0] { [pair[0], pair[1]] } else { [pair[1], pair[0]] };
+        if b[0] < x[0] || a[0] > x[1] {
+            return false;
+        }
+        let at = |end: f64| a[1] + (b[1] - a[1]) * (end.clamp(a[0], b[0]) - a[0]) / (b[0] - a[0]);
+        let [from, to] = if b[0] > a[0] { x.map(at) } else { [a[1], b[1]] };
+        from.min(to) <= y[1] && from.max(to) >= y[0]
+    };
+    lines.iter().any(|line| line.windows(2).any(passes))
 }
 
 /// Splits a sequence into its longest runs without a missing item.
@@ -308,6 +330,20 @@ mod tests {
         assert_eq!(Axis::linear([0.0, 24.0], "", Unit::Hours).marks([0.0, 24.0], 4), [0.0, 6.0, 12.0, 18.0, 24.0]);
         // Within a decade, where there is no power of ten.
         assert_eq!(axis(Unit::Share).marks([6.0_f64.log10(), 9.0_f64.log10()], 4).len(), 4);
+    }
+
+    #[test]
+    fn lines_cross_what_lies_between_their_points() {
+        let lines = [vec![[0.0, 0.0], [10.0, 10.0], [10.0, 20.0], [5.0, 20.0]]];
+        for (x, y, crossed) in [
+            ([4.0, 6.0], [4.0, 6.0], true),
+            ([4.0, 6.0], [6.5, 19.0], false),
+            ([9.5, 11.0], [14.0, 15.0], true),
+            ([10.5, 11.0], [14.0, 15.0], false),
+            ([6.0, 7.0], [19.0, 21.0], true),
+        ] {
+            assert_eq!(crosses(&lines, x, y), crossed, "{x:?} {y:?}");
+        }
     }
 
     #[test]

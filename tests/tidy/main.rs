@@ -7,6 +7,7 @@ mod glossary;
 mod layers;
 mod licences;
 mod scan;
+mod scripts;
 mod stages;
 mod words;
 

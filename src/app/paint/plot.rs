@@ -5,7 +5,7 @@
 //! egui_plot's does: a click hides a series, the pointer on a name emphasises it.
 
 use super::palette::Palette;
-use crate::drawing::plot::{Axis, Form, Plot, Series};
+use crate::drawing::plot::{Axis, Form, Plot, Series, crosses};
 use egui::{
     Align, Align2, Color32, FontId, Id, Layout, Pos2, Rangef, Rect, Response, RichText, Sense, Shape, Stroke,
     StrokeKind, Ui, UiBuilder, Vec2, pos2, vec2,
@@ -320,25 +320,37 @@ fn add(plot_ui: &mut PlotUi<'_>, plot: &Plot, series: &Series, (colour, dash): (
     }
 }
 
-/// Draws the names of the guides (lines of fixed values) at their right ends, except names that another guide would
-/// cross.
+/// Draws the names of the guides (lines of fixed values) near their right ends where no series passes, except names
+/// that another guide would cross.
 fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
     let area = shown.area();
     let ends = || plot.guides.iter().filter_map(|guide| Some((guide, shown.screen(plot.place(guide.ends[1])?))));
+    let on_screen = |run: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
+        run.into_iter().map(|point| shown.screen(point)).map(|at| [f64::from(at.x), f64::from(at.y)]).collect()
+    };
+    let lines: Vec<_> = plot.series.iter().flat_map(|series| plot.runs(series)).map(on_screen).collect();
+    let ends_of = |range: Rangef| [f64::from(range.min), f64::from(range.max)];
     let mut used: Vec<Rect> = vec![];
     for (guide, end) in ends().filter(|(guide, _)| !guide.name.is_empty()) {
         let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(TICKS), look.guide);
         let at = pos2(end.x.min(area.right()) - 4.0, end.y.max(area.top() + galley.size().y));
         // Over its line at the right end; where another name or line is, further to the left.
-        let free = (0..4).map(|k| at - vec2((galley.size().x + 8.0) * k as f32, 0.0)).find_map(|at| {
-            let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
-            let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
-            let is_free = used.iter().all(|other| !other.intersects(place));
-            (area.contains_rect(place) && !crossed && is_free).then_some(place)
-        });
-        if let Some(place) = free {
+        let step = galley.size().x + 8.0;
+        let count = if guide.is_level() { (area.width() / step) as u32 } else { 4 };
+        let places = (0..count).map(|k| at - vec2(step * k as f32, 0.0));
+        let free: Vec<Rect> = places
+            .filter_map(|at| {
+                let place = Align2::RIGHT_BOTTOM.anchor_size(at, galley.size());
+                let crossed = ends().any(|(_, other)| other.y != end.y && place.y_range().contains(other.y));
+                let is_free = used.iter().all(|other| !other.intersects(place));
+                (area.contains_rect(place) && !crossed && is_free).then_some(place)
+            })
+            .collect();
+        let passed =
+            |place: &&Rect| guide.is_level() && crosses(&lines, ends_of(place.x_range()), ends_of(place.y_range()));
+        if let Some(place) = free.iter().find(|place| !passed(place)).or(free.first()) {
             ui.painter().galley(place.min, galley, look.guide);
-            used.push(place);
+            used.push(*place);
         }
     }
 }
