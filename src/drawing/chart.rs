@@ -161,8 +161,10 @@ impl Panel<'_> {
                 // Over its end; where another has its name, or a line passes, further along.
                 let wide = width(&guide.name, TEXT) + 4.0;
                 let y = (at[1] - 8.0).max(self.area.top + 8.0);
-                let count = if guide.is_level() { (self.area.width / wide) as u32 } else { 3 };
-                let places = (0..count).map(|k| Frame::new(at[0] - 4.0 - wide * f64::from(k + 1), y - 8.0, wide, 16.0));
+                let step = if guide.is_level() { 8.0 } else { wide };
+                let count = if guide.is_level() { ((self.area.width - wide) / step) as u32 } else { 3 };
+                let first = at[0] - 4.0 - wide;
+                let places = (0..count).map(|k| Frame::new(first - step * f64::from(k), y - 8.0, wide, 16.0));
                 let free: Vec<Frame> = places.filter(|place| used.iter().all(|other| !other.meets(place))).collect();
                 let crossed = |place: &&Frame| {
                     guide.is_level() && crosses(&lines, [place.left, place.right()], [place.top, place.bottom()])

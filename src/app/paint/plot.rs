@@ -335,7 +335,7 @@ fn name_guides(ui: &Ui, plot: &Plot, look: &Look<'_>, shown: &Shown) {
         let galley = ui.painter().layout_no_wrap(guide.name.clone(), FontId::proportional(TICKS), look.guide);
         let at = pos2(end.x.min(area.right()) - 4.0, end.y.max(area.top() + galley.size().y));
         // Over its line at the right end; where another name or line is, further to the left.
-        let step = galley.size().x + 8.0;
+        let step = if guide.is_level() { 8.0 } else { galley.size().x + 8.0 };
         let count = if guide.is_level() { (area.width() / step) as u32 } else { 4 };
         let places = (0..count).map(|k| at - vec2(step * k as f32, 0.0));
         let free: Vec<Rect> = places
