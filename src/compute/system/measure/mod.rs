@@ -235,29 +235,13 @@ impl Quality {
     }
 }
 
-/// Returns `count` zeros for a matrix on fine cells, in memory pages that are allocated when they are first written to
-/// and returned to the operating system with the matrix: the C library of Linux keeps freed blocks below 32 MiB to
-/// itself once it has seen one of their size, and a window that computes one stack after another held twice what it
-/// used. Memory reserved beyond `count` is never touched.
-pub fn zeros(count: usize) -> Vec<f64> {
-    /// Number of values from which a block gets pages that are freed with it: 2 MiB. Chosen: memory only, no effect on
-    /// results.
-    const LARGE: usize = 1 << 18;
-    /// Number of values of a block that glibc never keeps: the upper limit of `M_MMAP_THRESHOLD`, 32 MiB on 64-bit
-    /// systems (mallopt(3)), and a margin.
-    const OWN_PAGES: usize = (32 << 20) / size_of::<f64>() + LARGE;
-    let mut block = vec![0.0; if cfg!(target_os = "linux") && count >= LARGE { count.max(OWN_PAGES) } else { count }];
-    block.truncate(count);
-    block
-}
-
 impl Measured {
     /// Creates data on the cells of a setting with every value 0.
     pub fn dark(setting: &Setting<'_>) -> Self {
         let (n, m) = (setting.incident.len(), setting.emergent.len());
         let seen = || OneSide {
-            transmitted: zeros(n * m),
-            reflected: zeros(n * m),
+            transmitted: vec![0.0; n * m],
+            reflected: vec![0.0; n * m],
             absorbed: vec![0.0; n],
             error: vec![0.0; n],
         };

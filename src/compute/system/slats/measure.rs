@@ -11,7 +11,7 @@ use super::profile_weights::{ProfileGrid, ProfileWeights};
 use super::rough::add_rough;
 use crate::compute::basis::RingBasis;
 use crate::compute::estimate::{Cancelled, Progress};
-use crate::compute::system::measure::{Measured, OneSide, Setting, Side, zeros};
+use crate::compute::system::measure::{Measured, OneSide, Setting, Side};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, Par};
 use rayon::prelude::*;
@@ -113,7 +113,7 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
         let block = |rows: &[Vec<f64>], turned| {
             let to = incident_widths(&emergent, setting.emergent, rows, turned);
-            let mut q = zeros(to.ncols() * sent.ncols());
+            let mut q = vec![0.0; to.ncols() * sent.ncols()];
             let sum = MatMut::from_column_major_slice_mut(&mut q, to.ncols(), sent.ncols());
             matmul(sum, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
             // The extrapolation to endless strips may fall below 0 where nothing arrives.

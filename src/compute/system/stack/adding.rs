@@ -14,7 +14,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::beams::mirror_images;
 use crate::compute::system::measure::{
-    Beam, Measured, OneSide, OpticalModel, ScatteredLight, Setting, Side, Structure, zeros,
+    Beam, Measured, OneSide, OpticalModel, ScatteredLight, Setting, Side, Structure,
 };
 use std::f64::consts::PI;
 
@@ -265,7 +265,7 @@ impl Layered {
         let weight = cells.projected_solid_angles();
         let mean = Resampling::new(cells, setting.incident);
         let averaged = |at: &dyn Fn(usize, usize) -> f64| {
-            let mut q = zeros(n * n);
+            let mut q = vec![0.0; n * n];
             for (k, q) in q.iter_mut().enumerate() {
                 *q = at(k % n, k / n).max(0.0) / weight[k % n];
             }
