@@ -249,12 +249,13 @@ mod tests {
         let mut drawing = Drawing::new(400.0, 300.0);
         let panel = panel(&mut drawing, Frame::new(0.0, 0.0, 400.0, 300.0), &plot, &Inks::LIGHT);
         let line: Vec<Point> = plot.runs(&plot.series[0])[0].iter().map(|point| panel.place(*point)).collect();
-        let ends = drawing.shapes.iter().filter_map(|shape| match shape {
+        let mut ends = drawing.shapes.iter().filter_map(|shape| match shape {
             Shape::Text { text, at, .. } if text == "limit" => Some(*at),
             _ => None,
         });
-        let [right, y] = ends.last().unwrap();
-        let free = |right: f64| !crosses(&[line.clone()], [right - width("limit", TEXT), right], [y - 8.0, y + 8.0]);
+        let [right, y] = ends.next().unwrap();
+        let lines = [line];
+        let free = |right: f64| !crosses(&lines, [right - width("limit", TEXT), right], [y - 8.0, y + 8.0]);
         assert!(free(right) && !free(panel.place([6.0, 0.0])[0] - 4.0), "{right}");
     }
 
