@@ -11,7 +11,7 @@ use cfs::app::tiles::arrange::{Arrange, Preset, Way};
 use cfs::compute::estimate::Progress;
 use cfs::study::accuracy::Accuracy;
 use egui::accesskit::Role;
-use egui::{Key, Modifiers, Rect, vec2};
+use egui::{Key, Modifiers, OutputCommand, Rect, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use std::path::Path;
@@ -217,4 +217,21 @@ fn a_hidden_tile_comes_up_to_be_copied() {
     assert!(head(&harness, "LID").is_none());
     apply(&mut harness, Command::CopyTile(tile));
     assert!(head(&harness, "LID").is_some());
+}
+
+#[test]
+fn numbers_are_copied_without_what_is_hidden() {
+    let mut harness = window();
+    arrange(&mut harness, Arrange::Preset(Preset::Designer));
+    assert!(head(&harness, "Control").is_none());
+    // The states over the year are not computed while no tile shows them.
+    apply(&mut harness, Command::Hour(2));
+    let room = TILES.iter().find(|entry| entry.tile.title == "Room").unwrap().tile;
+    harness.state_mut().apply(Command::CopyTile(room));
+    let copied = (0..200).any(|_| {
+        harness.step();
+        let commands = &harness.output().platform_output.commands;
+        commands.iter().any(|command| matches!(command, OutputCommand::CopyText(text) if text.contains("total_lx")))
+    });
+    assert!(copied, "the numbers wait for a hidden tile");
 }

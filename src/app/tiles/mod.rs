@@ -31,7 +31,7 @@ use super::command::Command;
 use super::paint::tile::waiting;
 use super::state::{Results, State, Tile};
 use crate::app::shell::jobs::Lane;
-use egui::{Id, Rect, Response, Ui};
+use egui::{Rect, Response, Ui};
 use egui_tiles::Tree;
 use std::time::{Duration, Instant};
 
@@ -127,11 +127,12 @@ impl Bench {
         read.map(drop)
     }
 
-    /// Begins a frame, in which no tile is visible yet. Returns the arrangement, which [`Self::end_frame`] takes back.
+    /// Begins a frame, in which no tile is placed yet. Returns a copy of the arrangement to be drawn, which
+    /// [`Self::end_frame`] takes: what is visible can be asked for until then.
     pub fn begin_frame(&mut self) -> Tree<Tile> {
         self.times.clear();
         self.places.clear();
-        std::mem::replace(&mut self.tree, Tree::empty(Id::unique("bench")))
+        self.tree.clone()
     }
 
     /// Ends a frame. `edited`: whether the user has changed the arrangement. Returns the text to be stored if so.
