@@ -63,6 +63,8 @@ def main():
     print(imported.stdout[-200:], imported.stderr[-200:])
     try:
         session.start()
+        files = memory(session, "RssFile")
+        print(f"the window: {memory(session, 'VmRSS'):.0f} MB, of which {files:.0f} MB are program and libraries", flush=True)
         for part in (products, rank, year, year, year):
             part(session)
             print(f"{part.__doc__}: {memory(session, 'VmRSS'):.0f} MB, peak {memory(session, 'VmHWM'):.0f} MB", flush=True)

@@ -191,42 +191,39 @@ fn beams_of(system: &impl Beams, direction: Dir<Facade>, side: Side, effort: Eff
 /// Returns [`Cancelled`] if `progress` is cancelled.
 pub fn measure(system: &impl Beams, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
     let bench = Bench::new(system, setting);
-    let n = setting.incident.len();
     let sideways = |phi: f64| PI - phi;
     let mirrored = mirror_images(setting.incident, sideways);
     let emergent = mirror_images(setting.emergent, sideways);
     // Left and right are alike: half of the cells are mirror images of the others.
-    let own = |i: usize| mirrored.as_ref().zip(emergent.as_ref()).is_none_or(|(map, _)| map[i] >= i);
-    let jobs: Vec<(Side, usize)> =
-        Side::BOTH.into_iter().flat_map(|side| (0..n).filter(|&i| own(i)).map(move |i| (side, i))).collect();
-    let done = AtomicUsize::new(0);
-    let rows: Vec<Option<Row>> = jobs
-        .par_iter()
-        .map(|&(side, index)| {
-            if progress.cancelled() {
-                return None;
-            }
-            let row = bench.row(side, index);
-            progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, jobs.len());
-            Some(row)
-        })
-        .collect();
+    let images = mirrored.zip(emergent);
+    let own = |i: usize| images.as_ref().is_none_or(|(mirrored, _)| mirrored[i] >= i);
     let mut measured = Measured::dark(setting);
     let m = setting.emergent.len();
-    for (&(side, index), row) in jobs.iter().zip(rows) {
-        let row = row.ok_or(Cancelled)?;
-        let seen = measured.seen_mut(side);
-        if let (Some(mirrored), Some(emergent)) = (&mirrored, &emergent)
-            && mirrored[index] != index
-        {
-            let image = mirrored[index];
-            for (o, &turned) in emergent.iter().enumerate() {
-                seen.transmitted[image * m + turned] = row.transmitted[o];
-                seen.reflected[image * m + turned] = row.reflected[o];
-            }
-            (seen.absorbed[image], seen.error[image]) = (row.absorbed, row.error);
+    let Measured { front, back, .. } = &mut measured;
+    let rows: Vec<Row<'_>> = [(Side::Front, front), (Side::Back, back)]
+        .into_iter()
+        .flat_map(|(side, seen)| Row::all(side, seen, m))
+        .filter(|row| own(row.index))
+        .collect();
+    let (done, all) = (AtomicUsize::new(0), rows.len());
+    rows.into_par_iter().try_for_each(|mut row| {
+        if progress.cancelled() {
+            return Err(Cancelled);
         }
-        row.store(seen, index);
+        bench.fill(&mut row);
+        progress.advance("goniophotometer", done.fetch_add(1, Ordering::Relaxed) + 1, all);
+        Ok(())
+    })?;
+    let Some((mirrored, emergent)) = images else { return Ok(measured) };
+    for seen in [&mut measured.front, &mut measured.back] {
+        for (i, &image) in mirrored.iter().enumerate().filter(|&(i, &image)| image > i) {
+            for values in [&mut seen.transmitted, &mut seen.reflected] {
+                for (o, &turned) in emergent.iter().enumerate() {
+                    values[image * m + turned] = values[i * m + o];
+                }
+            }
+            (seen.absorbed[image], seen.error[image]) = (seen.absorbed[i], seen.error[i]);
+        }
     }
     Ok(measured)
 }
@@ -244,32 +241,41 @@ pub fn mirror_images(basis: &RingBasis, turned: impl Fn(f64) -> f64) -> Option<V
     basis.cells().map(image).collect()
 }
 
-/// Scattering of one incident cell, summed over the directions computed in it.
-struct Row {
-    /// Flux into the emergent cells, summed over directions of unit incident flux; mean q \[1/sr\] after
-    /// [`Self::finish`].
-    transmitted: Vec<f64>,
-    reflected: Vec<f64>,
-    absorbed: f64,
+/// Scattering of one incident cell, in its place among the data of all cells: summed over the directions computed so
+/// far, means over the cell after [`Self::finish`].
+struct Row<'a> {
+    /// Side of the incident light.
+    side: Side,
+    /// Index of the incident cell.
+    index: usize,
+    /// Flux into the emergent cells, for directions of unit incident flux; then mean q. \[1/sr\]
+    transmitted: &'a mut [f64],
+    reflected: &'a mut [f64],
+    absorbed: &'a mut f64,
+    error: &'a mut f64,
     lost: f64,
-    error: f64,
     /// τ and ρ of all directions, in the order in which they were computed.
     totals: Vec<[f64; 2]>,
     /// Number of surfaces that the light was traced to.
     surfaces: f64,
 }
 
-impl Row {
-    fn new(m: usize) -> Self {
-        Self {
-            transmitted: vec![0.0; m],
-            reflected: vec![0.0; m],
-            absorbed: 0.0,
+impl<'a> Row<'a> {
+    /// Returns the rows of all incident cells for light from `side`; `m`: number of emergent cells.
+    fn all(side: Side, seen: &'a mut OneSide, m: usize) -> impl Iterator<Item = Self> {
+        let flux = seen.transmitted.chunks_exact_mut(m).zip(seen.reflected.chunks_exact_mut(m));
+        let sums = seen.absorbed.iter_mut().zip(&mut seen.error);
+        flux.zip(sums).enumerate().map(move |(index, ((transmitted, reflected), (absorbed, error)))| Self {
+            side,
+            index,
+            transmitted,
+            reflected,
+            absorbed,
+            error,
             lost: 0.0,
-            error: 0.0,
             totals: vec![],
             surfaces: 0.0,
-        }
+        })
     }
 
     /// Returns the estimated error of τ or of ρ, the larger one: [`SURE`] standard errors, as if the groups of
@@ -296,16 +302,8 @@ impl Row {
                 *q *= each / weight;
             }
         }
-        self.absorbed *= each;
-        self.error = self.uncertainty() + self.lost * each;
-    }
-
-    fn store(self, seen: &mut OneSide, index: usize) {
-        let m = self.transmitted.len();
-        seen.transmitted[index * m..(index + 1) * m].copy_from_slice(&self.transmitted);
-        seen.reflected[index * m..(index + 1) * m].copy_from_slice(&self.reflected);
-        seen.absorbed[index] = self.absorbed;
-        seen.error[index] = self.error;
+        *self.absorbed *= each;
+        *self.error = self.uncertainty() + self.lost * each;
     }
 }
 
@@ -335,19 +333,17 @@ impl<'a, B: Beams> Bench<'a, B> {
 
     /// Computes the scattering of one incident cell: the number of directions is doubled until the allowed error is
     /// met, or until the light has met too many surfaces.
-    fn row(&self, side: Side, index: usize) -> Row {
+    fn fill(&self, row: &mut Row<'_>) {
         let fewest = (2 * self.system.fewest_parts()).next_power_of_two().ilog2();
         let most = MOST_SURFACES * (0.01 / self.setting.error).max(1.0).powf(1.5);
-        let mut row = Row::new(self.weights.len());
         let mut doublings = (2 * fewest).min(MOST_DOUBLINGS);
-        let share = self.share(side, index);
-        self.add_net(&mut row, side, index, share, 0..1 << doublings);
+        let share = self.share(row.side, row.index);
+        self.add_net(row, share, 0..1 << doublings);
         while row.uncertainty() > AIM * self.setting.error && doublings < MOST_DOUBLINGS && row.surfaces < most {
-            self.add_net(&mut row, side, index, share, 1 << doublings..2 << doublings);
+            self.add_net(row, share, 1 << doublings..2 << doublings);
             doublings += 1;
         }
         row.finish(&self.weights);
-        row
     }
 
     /// Returns the seed for direction `number` of the incident cell `index`, the same on any thread; number 0 is the
@@ -374,7 +370,8 @@ impl<'a, B: Beams> Bench<'a, B> {
 
     /// Adds the scattering of the directions `numbers` of the cell's sequence to `row`; their count is a power of two,
     /// and the first a multiple of it.
-    fn add_net(&self, row: &mut Row, side: Side, index: usize, share: f64, numbers: Range<u32>) {
+    fn add_net(&self, row: &mut Row<'_>, share: f64, numbers: Range<u32>) {
+        let (side, index) = (row.side, row.index);
         let doublings = numbers.len().ilog2();
         let cell = self.setting.incident.cell(index);
         let mut shares = Shares::default();
@@ -400,10 +397,10 @@ impl<'a, B: Beams> Bench<'a, B> {
             }
             row.totals.push(total);
             row.surfaces += f64::from(shares.surfaces);
-            row.absorbed += shares.absorbed;
+            *row.absorbed += shares.absorbed;
             row.lost += shares.lost;
             for (number, beam) in shares.beams.iter().enumerate() {
-                let to = if beam.transmitted { &mut row.transmitted } else { &mut row.reflected };
+                let to = if beam.transmitted { &mut *row.transmitted } else { &mut *row.reflected };
                 if self.same && beam.y == y {
                     // Light that keeps its through direction keeps its cell.
                     to[index] += beam.share;

@@ -28,15 +28,21 @@ impl Measured {
             let pairs = self.shares(&seen.transmitted).into_iter().zip(self.shares(&seen.reflected));
             pairs.map(|(t, r)| t + r).collect::<Vec<f64>>()
         });
-        let mean = |a: &[f64], b: &[f64], way_back: &dyn Fn(usize, usize) -> usize| -> Vec<f64> {
-            (0..n * n).map(|k| 0.5 * (a[k] + b[way_back(k / n, k % n)])).collect()
-        };
-        let through = mean(&self.front.transmitted, &self.back.transmitted, &|i, o| o * n + i);
-        // Through directions of reflected light are opposite.
-        let back = Side::BOTH.map(|side| {
-            let q = &self.seen(side).reflected;
-            mean(q, q, &|i, o| turn[o] * n + turn[i])
-        });
+        let pairs = (0..n).flat_map(|i| (0..n).map(move |o| (i, o)));
+        for (i, o) in pairs.clone() {
+            let (there, way_back) = (&mut self.front.transmitted[i * n + o], &mut self.back.transmitted[o * n + i]);
+            let mean = 0.5 * (*there + *way_back);
+            (*there, *way_back) = (mean, mean);
+        }
+        for side in Side::BOTH {
+            let q = &mut self.seen_mut(side).reflected;
+            for (i, o) in pairs.clone() {
+                // Through directions of reflected light are opposite.
+                let way_back = turn[o] * n + turn[i];
+                let mean = 0.5 * (q[i * n + o] + q[way_back]);
+                (q[i * n + o], q[way_back]) = (mean, mean);
+            }
+        }
         let weight = self.incident.projected_solid_angles();
         // Flux between cells of the front (the first half of all lists) and of the back.
         let flux = |scales: &[f64]| {
@@ -44,11 +50,11 @@ impl Measured {
             for i in 0..n {
                 for o in 0..n {
                     let both = weight[i] * weight[o];
-                    let q = through[i * n + o] * both;
+                    let q = self.front.transmitted[i * n + o] * both;
                     sums[i] += q * scales[n + o];
                     sums[n + o] += q * scales[i];
-                    sums[i] += back[0][i * n + o] * both * scales[turn[o]];
-                    sums[n + i] += back[1][i * n + o] * both * scales[n + turn[o]];
+                    sums[i] += self.front.reflected[i * n + o] * both * scales[turn[o]];
+                    sums[n + i] += self.back.reflected[i * n + o] * both * scales[n + turn[o]];
                 }
             }
             sums
@@ -57,13 +63,12 @@ impl Measured {
         let smallest = weight.iter().copied().fold(f64::INFINITY, f64::min);
         let scales = by_newton(flux, &wanted, LEFT * smallest);
         let (front, inside) = scales.split_at(n);
-        for i in 0..n {
-            for o in 0..n {
-                let q = through[i * n + o] * front[i] * inside[o];
-                (self.front.transmitted[i * n + o], self.back.transmitted[o * n + i]) = (q, q);
-                self.front.reflected[i * n + o] = back[0][i * n + o] * front[i] * front[turn[o]];
-                self.back.reflected[i * n + o] = back[1][i * n + o] * inside[i] * inside[turn[o]];
-            }
+        for (i, o) in pairs {
+            let q = self.front.transmitted[i * n + o] * front[i] * inside[o];
+            (self.front.transmitted[i * n + o], self.back.transmitted[o * n + i]) = (q, q);
+            let [outside, room] = [&mut self.front, &mut self.back].map(|seen| &mut seen.reflected[i * n + o]);
+            *outside = *outside * front[i] * front[turn[o]];
+            *room = *room * inside[i] * inside[turn[o]];
         }
         self
     }
