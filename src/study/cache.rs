@@ -109,6 +109,11 @@ impl<T: Send + Sync + 'static> Cache<T> {
         self.store.lock().results.peek(&(self.number, key.clone())).is_some()
     }
 
+    /// Marks the result of a key as used, if it is stored.
+    pub fn touch(&self, key: &Key) {
+        self.store.lock().results.get(&(self.number, key.clone()));
+    }
+
     /// Returns the result of a key; it is computed if it is not stored. Two threads may compute the same result at the
     /// same time; both then get that of the first.
     pub fn get<E>(&self, key: Key, compute: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
@@ -186,6 +191,9 @@ mod tests {
         }
         store.set_limit(2000);
         holds(&[600, 1200]);
+        even.touch(&vec![600]);
+        store.set_limit(700);
+        holds(&[600]);
         store.clear();
         holds(&[]);
         assert_eq!(find(600), 600);

@@ -9,7 +9,7 @@ use cfs::compute::room::direct::Sensor;
 use cfs::study::control::ControlQuestion;
 use cfs::study::scene_file::SystemKeys;
 use cfs::study::system::Need;
-use cfs::study::{RoomResult, Scene, Session, StudyError, System, SystemLibrary};
+use cfs::study::{RoomResult, Scene, Session, Store, StudyError, System, SystemLibrary};
 use glam::DVec3;
 use std::sync::{Arc, Mutex};
 
@@ -226,4 +226,18 @@ fn a_new_sky_reuses_the_room_and_gives_the_same_as_from_nothing() {
     let half = cfs::compute::btdf::CellMatrix::new(basis.clone(), basis, values).unwrap();
     let third = session.room(&reflecting(MADE, OVERCAST).scene_with(from_matrix(half)), &Silent).unwrap();
     assert!(!left_out(&third, "receptions") && left_out(&third, "room factors"));
+}
+
+#[test]
+fn rooms_of_one_shape_share_their_exchange_areas() {
+    let of = |walls: f64| Text { reflectance: [0.2, walls, 0.7], ..Text::default() }.scene();
+    let store = Arc::new(Store::new(1 << 30));
+    let session = Session::storing(&store);
+    session.room(&of(0.5), &Silent).unwrap();
+    let one = store.bytes();
+    let found = session.room(&of(0.6), &Silent).unwrap();
+    let more = store.bytes() - one;
+    // A balance between the coarse patches, a quarter of their exchange areas with the fine ones.
+    assert!(more < one / 3, "{one} {more}");
+    assert_eq!(totals(&found), totals(&fresh(&of(0.6))));
 }

@@ -4,8 +4,37 @@
 //! along the common axis only the distance matters, so that many combinations coincide.
 
 use super::form_factor::{parallel_corner, perpendicular_corner};
-use super::mesh::{Mesh, Wall};
+use super::mesh::{Mesh, Nested, Wall};
 use faer::MatRef;
+use std::sync::Arc;
+
+/// Exchange areas between the meshes of a room. They depend on its shape alone, so that rooms whose surfaces differ in
+/// reflectance share them.
+pub struct Exchanges {
+    /// Exchange areas of the coarse patches with the fine ones.
+    pub level: Arc<Exchange>,
+    /// Exchange areas of the coarser patches with the coarse ones.
+    pub coarser: Arc<Exchange>,
+}
+
+impl Exchanges {
+    /// Computes the exchange areas of a meshed room.
+    pub fn new(nested: &Nested) -> Self {
+        let level = Exchange::new(&nested.coarse, &nested.fine);
+        let coarser = level.gathered(
+            Some(&nested.coarser_of_coarse),
+            nested.coarser.patches.len(),
+            &nested.coarse_of_fine,
+            nested.coarse.patches.len(),
+        );
+        Self { level: Arc::new(level), coarser: Arc::new(coarser) }
+    }
+
+    /// Returns the memory that they take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.level.values[..]) + size_of_val(&self.coarser.values[..])
+    }
+}
 
 /// Exchange areas A·F (area times form factor) of every receiving patch (row) and emitting patch (column). \[m²\]
 pub struct Exchange {

@@ -11,11 +11,12 @@
 //! in the size of the patches, so that a third of the difference is added, and the difference shows the remaining
 //! error.
 
-use super::exchange::Exchange;
+use super::exchange::{Exchange, Exchanges};
 use super::mesh::{Mesh, Nested, Patch};
 use crate::compute::dot::dot;
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Mat, Side};
+use std::sync::Arc;
 
 /// Maximum mean reflectance of all surfaces together, weighted by area. Above it the result depends mainly on small
 /// errors of the reflectances; with 1 there is no solution. Chosen: limit of input; the sum of all reflections, 1 / (1
@@ -32,7 +33,7 @@ pub struct Radiosity {
 
 /// Interreflection equations on one mesh, with exchange areas to the next finer one.
 struct MeshBalance {
-    exchange: Exchange,
+    exchange: Arc<Exchange>,
     /// Area of every patch of the coarser, receiving mesh. \[m²\]
     area: Vec<f64>,
     reflectance: Vec<f64>,
@@ -75,33 +76,26 @@ pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> R
 }
 
 impl Radiosity {
-    /// Computes the exchange areas of a meshed room and factors the interreflection equations. Memory: a dense matrix
-    /// of coarse by fine patches.
+    /// Factors the interreflection equations of a meshed room. `exchanges`: exchange areas of these meshes, with which
+    /// the room stays. Memory: a dense matrix of the coarse patches.
     ///
     /// # Errors
     /// Returns an error if the surfaces absorb too little light ([`MOST_REFLECTANCE`]).
-    pub fn new(nested: Nested) -> Result<Self, NothingAbsorbs> {
+    pub fn new(nested: Nested, exchanges: &Exchanges) -> Result<Self, NothingAbsorbs> {
         let mean = enough_is_absorbed(&nested.fine, |patch| patch.reflectance)?;
-        let exchange = Exchange::new(&nested.coarse, &nested.fine);
-        let coarser = exchange.gathered(
-            Some(&nested.coarser_of_coarse),
-            nested.coarser.patches.len(),
-            &nested.coarse_of_fine,
-            nested.coarse.patches.len(),
-        );
         let singular = NothingAbsorbs { mean };
-        let coarser = MeshBalance::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
-        let level = MeshBalance::new(exchange, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
+        let balance = |exchange: &Arc<Exchange>, receivers: &Mesh, holder: &[usize]| {
+            MeshBalance::new(Arc::clone(exchange), receivers, holder).ok_or(singular)
+        };
+        let coarser = balance(&exchanges.coarser, &nested.coarser, &nested.coarser_of_coarse)?;
+        let level = balance(&exchanges.level, &nested.coarse, &nested.coarse_of_fine)?;
         Ok(Self { nested, level, coarser })
     }
 
-    /// Returns the memory that its matrices and patches take. \[bytes\]
+    /// Returns the memory that its equations and patches take, without the exchange areas. \[bytes\]
     pub fn bytes(&self) -> usize {
-        let matrices = |level: &MeshBalance| {
-            let exchange = level.exchange.matrix();
-            size_of::<f64>() * (exchange.nrows() * exchange.ncols() + level.active.len().pow(2))
-        };
-        size_of::<Patch>() * self.nested.fine.patches.len() + matrices(&self.level) + matrices(&self.coarser)
+        let factors = [&self.level, &self.coarser].map(|level| size_of::<f64>() * level.active.len().pow(2));
+        size_of::<Patch>() * self.nested.fine.patches.len() + factors[0] + factors[1]
     }
 
     /// Computes the exitance of every patch by all reflections, from the direct illuminance `first` of the fine patches
@@ -186,7 +180,7 @@ fn once(mesh: &Mesh, gather: &[f64]) -> Vec<f64> {
 impl MeshBalance {
     /// Creates the equations between the patches of `receivers`; `None` if they are singular. `holder`: index of the
     /// receiving patch that contains each emitting patch.
-    fn new(exchange: Exchange, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
+    fn new(exchange: Arc<Exchange>, receivers: &Mesh, holder: &[usize]) -> Option<Self> {
         let area: Vec<f64> = receivers.patches.iter().map(|patch| patch.area).collect();
         let reflectance: Vec<f64> = receivers.patches.iter().map(|patch| patch.reflectance).collect();
         let active: Vec<usize> = (0..area.len()).filter(|&i| reflectance[i] > 0.0).collect();
@@ -336,7 +330,9 @@ mod tests {
 
     fn radiosity(room: &BoxRoom, apertures: &[Aperture], rho: f64, count: usize) -> Radiosity {
         let reflectances = vec![rho; apertures.len()];
-        Radiosity::new(Nested::with_about(room, apertures, &reflectances, count).unwrap()).unwrap()
+        let nested = Nested::with_about(room, apertures, &reflectances, count).unwrap();
+        let exchanges = Exchanges::new(&nested);
+        Radiosity::new(nested, &exchanges).unwrap()
     }
 
     #[test]

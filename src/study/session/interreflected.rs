@@ -8,6 +8,7 @@ use crate::compute::dot::dot;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
+use crate::compute::room::exchange::Exchanges;
 use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::mesh::{Mesh, Nested, Wall};
@@ -83,11 +84,17 @@ impl Session {
     /// Returns the room with about `count` fine patches, with its interreflection solved (factored); computed or
     /// stored.
     pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
-        self.rooms.get(room_key(scene, count), || {
+        let shape = mesh_key(scene, count);
+        let room = self.rooms.get(room_key(scene, count), || {
             let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
             let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.diffuse_reflectance()).collect();
-            Radiosity::new(Nested::with_about(&scene.room, &geometry, &reflectances, count)?).map_err(StudyError::from)
-        })
+            let nested = Nested::with_about(&scene.room, &geometry, &reflectances, count)?;
+            let exchanges = self.exchanges.find(shape.clone(), || Exchanges::new(&nested));
+            Radiosity::new(nested, &exchanges).map_err(StudyError::from)
+        })?;
+        // Removed while rooms stay with them, they would take memory that nothing counts.
+        self.exchanges.touch(&shape);
+        Ok(room)
     }
 
     /// Returns the weights with which every sensor sees the patches: stored, or, for more sensors than can be stored,
