@@ -27,6 +27,10 @@ use std::time::{Duration, Instant};
 
 /// Maximum time that a closing window waits for data that are still being stored.
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
+/// Time without computations after which fewer results stay stored. Chosen: longer than one thinks about a picture.
+const REST: Duration = Duration::from_secs(30);
+/// Divisor of the limit of stored results after [`REST`]: a quarter holds what one scene needs again, not its year.
+const AT_REST: usize = 4;
 
 impl App {
     /// Creates a window, without drawing it.
@@ -187,9 +191,8 @@ impl App {
             self.shell.open_catalogue();
         }
         follow_text_size(&self.shell, ctx);
-        let limit = self.shell.state.settings.store_limit.saturating_mul(MEGABYTE);
-        self.shell.services.engine.store().into_iter().for_each(|store| store.set_limit(limit));
         self.poll();
+        self.limit_store(ctx);
         // Another window or the command line may have changed the catalogue meanwhile.
         if ctx.input(|input| input.events.contains(&egui::Event::WindowFocused(true))) {
             self.shell.search();
@@ -210,6 +213,19 @@ impl App {
         let storing = self.products.is_adding() && self.shell.jobs.busy(Lane::Store);
         if !dragging && !storing {
             self.shell.undoer.feed_state(ctx.input(|input| input.time), &self.shell.state.document);
+        }
+    }
+
+    /// Limits the memory of stored results: to a part of the limit while nothing is computed.
+    fn limit_store(&self, ctx: &egui::Context) {
+        let Some(store) = self.shell.services.engine.store() else { return };
+        let limit = self.shell.state.settings.store_limit.saturating_mul(MEGABYTE);
+        match REST.checked_sub(self.shell.jobs.idle()) {
+            Some(left) => {
+                store.set_limit(limit);
+                ctx.request_repaint_after(left);
+            }
+            None => store.set_limit(limit / AT_REST),
         }
     }
 

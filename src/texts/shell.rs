@@ -37,7 +37,7 @@ texts! {
     const ABOUT = "About cfs" | "Über cfs";
     fn version(number) = "Version {number}" | "Version {number}";
     const STORED_RESULTS = "Stored results" | "Gespeicherte Ergebnisse";
-    const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those used least recently are removed first; no result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die am längsten nicht benutzten entfernt; kein Ergebnis hängt davon ab, was gespeichert ist.";
+    const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those used least recently are removed first, and all but a quarter of the maximum when nothing has been computed for half a minute; no result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die am längsten nicht benutzten entfernt, und alle bis auf ein Viertel des Höchstwerts, wenn eine halbe Minute lang nichts berechnet wurde; kein Ergebnis hängt davon ab, was gespeichert ist.";
     const STORE_IN_USE = "In use" | "Belegt";
     const STORE_LIMIT = "Maximum" | "Höchstens";
     const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years, rankings and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre, Rangfolgen und große Räume";

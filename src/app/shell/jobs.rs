@@ -173,6 +173,8 @@ pub struct Jobs<M> {
     /// does not restart.
     background: Arc<JobState>,
     next: u64,
+    /// Time at which a job other than background jobs was last found running.
+    worked: Instant,
     sight: Arc<Sight>,
     sender: Sender<(u64, Finished<M>)>,
     receiver: Receiver<(u64, Finished<M>)>,
@@ -181,7 +183,15 @@ pub struct Jobs<M> {
 impl<M: Send + 'static> Default for Jobs<M> {
     fn default() -> Self {
         let (sender, receiver) = channel();
-        Self { running: BTreeMap::new(), background: Arc::default(), next: 0, sight: Arc::default(), sender, receiver }
+        Self {
+            running: BTreeMap::new(),
+            background: Arc::default(),
+            next: 0,
+            worked: Instant::now(),
+            sight: Arc::default(),
+            sender,
+            receiver,
+        }
     }
 }
 
@@ -240,6 +250,9 @@ impl<M: Send + 'static> Jobs<M> {
 
     /// Returns the results of jobs that have finished since the last call, without waiting.
     pub fn poll(&mut self) -> Vec<Finished<M>> {
+        if self.running.keys().any(|lane| lane.priority() != Priority::Background) {
+            self.worked = Instant::now();
+        }
         let mut list = Vec::new();
         while let Ok((generation, finished)) = self.receiver.try_recv() {
             if self.running.get(&finished.lane).is_some_and(|job| job.generation == generation) {
@@ -248,6 +261,11 @@ impl<M: Send + 'static> Jobs<M> {
             }
         }
         list
+    }
+
+    /// Returns the time since [`Self::poll`] last found a job other than background jobs.
+    pub fn idle(&self) -> Duration {
+        self.worked.elapsed()
     }
 
     /// Whether a lane has a running job.
@@ -406,6 +424,20 @@ mod tests {
         assert!(!next(100), "what came is not taken in yet");
         drop(list);
         assert!(next(10_000), "it goes on");
+    }
+
+    #[test]
+    fn work_in_the_background_is_rest() {
+        let mut jobs = Jobs::default();
+        let (go, gate) = channel::<()>();
+        jobs.start(Lane::Builtin, || {}, |state| while !state.cancelled() {});
+        std::thread::sleep(Duration::from_millis(200));
+        jobs.poll();
+        assert!(jobs.idle() >= Duration::from_millis(200));
+        jobs.start(Lane::Room, || {}, move |_| gate.recv().unwrap());
+        jobs.poll();
+        assert!(jobs.idle() < Duration::from_millis(200));
+        go.send(()).unwrap();
     }
 
     #[test]
