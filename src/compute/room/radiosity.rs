@@ -436,7 +436,8 @@ mod tests {
         assert!((floor / entered - 1.0).abs() < 1e-9, "{floor} {entered}");
         for rho in [1.0, 0.9995] {
             let nested = Nested::with_about(&room(rho), &[window()], &[rho], 300).unwrap();
-            let refused = Radiosity::new(nested).err().unwrap().to_string();
+            let exchanges = Exchanges::new(&nested);
+            let refused = Radiosity::new(nested, &exchanges).err().unwrap().to_string();
             assert!(refused.contains("0.999"), "{refused}");
         }
     }
