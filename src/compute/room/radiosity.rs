@@ -76,8 +76,8 @@ pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> R
 }
 
 impl Radiosity {
-    /// Factors the interreflection equations of a meshed room. `exchanges`: exchange areas of these meshes, with which
-    /// the room stays. Memory: a dense matrix of the coarse patches.
+    /// Factors the interreflection equations of a meshed room. `exchanges`: exchange areas of these meshes. Memory: a
+    /// dense matrix of the coarse patches, beside the shared exchange areas.
     ///
     /// # Errors
     /// Returns an error if the surfaces absorb too little light ([`MOST_REFLECTANCE`]).

@@ -92,7 +92,7 @@ impl Session {
             let exchanges = self.exchanges.find(shape.clone(), || Exchanges::new(&nested));
             Radiosity::new(nested, &exchanges).map_err(StudyError::from)
         })?;
-        // Removed while rooms stay with them, they would take memory that nothing counts.
+        // Exchange areas that are removed before the rooms that share them would take memory that nothing counts.
         self.exchanges.touch(&shape);
         Ok(room)
     }
