@@ -15,6 +15,9 @@ const MOST_FAILURES: usize = 5;
 /// Time for which data of built-in products are computed in a job before their order is determined again.
 const FILLING: Duration = Duration::from_millis(500);
 
+/// Lanes whose jobs may take minutes: a paused computation would hold its memory, up to 200 MB, all that time.
+const LONG: [Lane; 5] = [Lane::Annual, Lane::Rank, Lane::Compare, Lane::Accuracy, Lane::Goniophotometer];
+
 /// Computation of data of built-in products in advance.
 #[derive(Default)]
 pub struct BuiltIn {
@@ -37,8 +40,11 @@ impl BuiltIn {
 
     /// Starts computing, while nothing else is computed: first the data of the selected product, then the
     /// representative states of the listed products, then the rest. After a stop it resumes when another product is
-    /// selected.
+    /// selected. It is cancelled by jobs that take long, and due again afterwards.
     pub fn fill(&mut self, shell: &mut Shell) {
+        if LONG.iter().any(|lane| shell.jobs.busy(*lane)) && shell.jobs.cancel(Lane::Builtin) {
+            self.due = true;
+        }
         if !self.due || !shell.jobs.views().is_empty() {
             return;
         }
@@ -83,6 +89,37 @@ fn fill_some(shelf: &dyn Shelf, order: &[String], progress: &JobState) -> Result
         progress.advance("computing", all.saturating_sub(left), all);
         if left == 0 || start.elapsed() > FILLING {
             return Ok(left);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::App;
+    use crate::app::results::backend::StudyEngine;
+    use std::sync::Arc;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn it_pauses_for_a_short_job_and_is_cancelled_by_a_long_one() {
+        let mut app = App::for_test(Arc::new(StudyEngine::default()));
+        for (lane, pauses) in [(Lane::Room, true), (Lane::Rank, false)] {
+            let shell = &mut app.shell;
+            shell.start(Lane::Builtin, |job| {
+                while !job.cancelled() {}
+                Outcome::Builtin(Ok(1))
+            });
+            let (end, gate) = channel::<()>();
+            shell.start(lane, move |_| {
+                _ = gate.recv();
+                Outcome::Builtin(Ok(0))
+            });
+            let mut built_in = BuiltIn::default();
+            built_in.fill(shell);
+            assert_eq!((shell.jobs.busy(Lane::Builtin), built_in.is_due()), (pauses, !pauses), "{lane:?}");
+            drop(end);
+            shell.jobs.cancel(lane);
         }
     }
 }
