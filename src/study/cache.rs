@@ -1,11 +1,16 @@
 //! Store of results for later computations: found by exact keys, within one limit of memory, the least recently used out
-//! first.
+//! first. Results in use stay: without them in the store their memory would be the same, and the next computation would
+//! compute them again.
 
 use hashlink::LruCache;
 use std::any::Any;
 use std::convert::Infallible;
 use std::marker::PhantomData;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+/// Part of a store's limit that results which are not in use may take, however large those in use are: the small ones
+/// that are needed beside a large one. Chosen: cost only, no effect on results.
+const BESIDE: usize = 4;
 
 /// Key of a result: the bits of all numbers on which it depends.
 pub type Key = Vec<u64>;
@@ -33,7 +38,7 @@ struct Entry {
 }
 
 impl Store {
-    /// Creates an empty store whose results take at most `limit` bytes; the last result is stored whatever its size.
+    /// Creates an empty store whose results take at most `limit` bytes, or more while computations use large ones.
     pub fn new(limit: usize) -> Self {
         Self(Mutex::new(Stored { limit, bytes: 0, caches: 0, results: LruCache::new_unbounded() }))
     }
@@ -48,7 +53,7 @@ impl Store {
         self.lock().bytes
     }
 
-    /// Sets the maximum memory of all results \[bytes\], and removes those beyond it.
+    /// Sets the maximum memory of all results \[bytes\], and removes those beyond it that are not in use.
     pub fn set_limit(&self, limit: usize) {
         let mut stored = self.lock();
         if stored.limit != limit {
@@ -75,10 +80,23 @@ fn free(removed: impl Send + 'static) {
 }
 
 impl Stored {
-    /// Removes the least recently used results until the others are within the limit, and returns them.
+    /// Removes the least recently used of the results that are not in use until all results are within the limit, or
+    /// those take a part of it ([`BESIDE`]), and returns them.
     fn within_limit(&mut self) -> Vec<((usize, Key), Entry)> {
         let mut removed = Vec::new();
-        while self.bytes > self.limit && self.results.len() > 1 {
+        if self.bytes <= self.limit {
+            return removed;
+        }
+        // Nobody can begin to use a result while the store is locked.
+        let in_use = self.results.iter().filter(|(_, entry)| Arc::strong_count(&entry.value) > 1);
+        let (places, sizes): (Vec<_>, Vec<_>) = in_use.map(|(place, entry)| (place.clone(), entry.bytes)).unzip();
+        // Their last use is now.
+        for place in &places {
+            self.results.get(place);
+        }
+        let used: usize = sizes.into_iter().sum();
+        let most = self.limit.max(used + self.limit / BESIDE);
+        while self.bytes > most {
             let Some(result) = self.results.remove_lru() else { break };
             self.bytes -= result.1.bytes;
             removed.push(result);
@@ -197,5 +215,25 @@ mod tests {
         store.clear();
         holds(&[]);
         assert_eq!(find(600), 600);
+    }
+
+    #[test]
+    fn results_in_use_stay_and_small_ones_beside_them() {
+        let store = Arc::new(Store::new(1000));
+        let cache = Cache::new(&store, |value: &usize| *value);
+        let find = |size: usize| cache.find(vec![size as u64], || size);
+        let held = || [200, 400, 500, 800].map(|size| cache.holds(&vec![size]));
+        let used = find(800);
+        find(500);
+        assert_eq!(held(), [false, false, true, true]);
+        find(400);
+        assert_eq!(held(), [false, true, false, true]);
+        find(200);
+        assert_eq!(held(), [true, false, false, true]);
+        store.set_limit(900);
+        assert_eq!(held(), [true, false, false, true]);
+        drop(used);
+        store.set_limit(300);
+        assert_eq!(held(), [false; 4]);
     }
 }

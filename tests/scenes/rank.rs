@@ -5,11 +5,11 @@ use cfs::compute::btdf::{Btdf, Dataset};
 use cfs::compute::estimate::{Estimate, Progress, Silent};
 use cfs::compute::rank::{Better, Objective};
 use cfs::study::rank::{Found, Group, Item, List, Parts, Row, Shard, Stage, groups, keys, lists_of, run};
-use cfs::study::year::{Need, climate, figures, metrics, year_in};
-use cfs::study::{Library, SceneFile, Session, StudyError};
+use cfs::study::year::{Need, Step, climate, figures, metrics, year_in};
+use cfs::study::{Library, SceneFile, Session, Store, StudyError};
 use std::path::Path;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 const SCENE: &str = r#"
 [room]
@@ -162,6 +162,24 @@ fn figures_of_occupied_hours_do_without_the_others() {
     for ((key, a, _), (other, b, _)) in same.into_iter().zip(&occupied.1) {
         assert!(key == other && (a - b).abs() <= 1e-9 * a.abs(), "{key}: {a}, {other}: {b}");
     }
+}
+
+/// However little a session may store: what the products of a climate share need not be computed for each.
+#[test]
+fn the_light_of_a_year_stays_in_use_from_product_to_product() {
+    let text = SCENE.replace("system = \"ranked\"", "system = { ideal = \"transparent\", transmittance = 0.6 }");
+    let file = SceneFile::parse(&text[..text.find("[rank]").unwrap()]).unwrap();
+    let base = Path::new(".");
+    let climate = climate(&file, base).unwrap();
+    let store = Arc::new(Store::new(1));
+    let session = Session::storing(&store);
+    let march = |step: &Step| step.month == 3;
+    year_in(&climate, &file, base, &Library::default(), &session, &march, &Silent).unwrap();
+    store.set_limit(0);
+    assert!(store.bytes() > 8760 * 16, "{} bytes are less than the hours of a year", store.bytes());
+    drop(climate);
+    store.set_limit(1);
+    assert_eq!(store.bytes(), 0);
 }
 
 /// Prisms are the worst of the built-in products: their fans are as wide as cells.

@@ -65,6 +65,8 @@ pub(super) struct Past {
     /// profile angle.
     cells: Arc<Vec<CellWeights>>,
     bands: Arc<Vec<CellWeights>>,
+    /// Weights of luminances at the points of the aperture, by incident patch. \[sr\]
+    by_point: Arc<Vec<Vec<Counts>>>,
     /// Scattered direct light at the sensors by incident patch, sensor and point of the aperture, per illuminance
     /// through the patch; empty where that would need too much memory.
     by_patch: Vec<OnceLock<Vec<f32>>>,
@@ -142,12 +144,13 @@ impl Behind {
             sensors: inside,
             cells,
             bands,
+            by_point,
             by_patch: (0..if kept { patches.len() } else { 0 }).map(|_| OnceLock::new()).collect(),
             direct: Arc::new(Mat::new()),
             reflected,
             sent,
         };
-        past.direct = direct.get(vec![opening.index as u64], || self.direct(opening, &past, &by_point, regular))?;
+        past.direct = direct.get(vec![opening.index as u64], || self.direct(opening, &past, regular))?;
         Ok(past)
     }
 
@@ -156,14 +159,13 @@ impl Behind {
         &self,
         opening: &Opening<'_>,
         past: &Past,
-        by_point: &[Vec<Counts>],
         regular: Option<&AngularTransmittance>,
     ) -> Result<Mat<f32>, StudyError> {
         let sensors = past.sensors.len();
         let mut tables = Mat::zeros(sensors, self.prepared.count());
         let scattered = |first: usize| {
             check(opening.progress)?;
-            Ok((first, past.scattered(first, by_point, self.prepared.count())))
+            Ok((first, past.scattered(first, self.prepared.count())))
         };
         let blocks = (0..sensors).into_par_iter().step_by(TOGETHER).map(scattered);
         for (first, weights) in blocks.collect::<Result<Vec<_>, StudyError>>()? {
@@ -227,9 +229,8 @@ impl Past {
     }
 
     /// Returns the weights of outside luminances in the scattered direct light at sensors from the `first` on,
-    /// luminance by luminance. `by_point`: weights of luminances at the points of the aperture, by incident patch;
-    /// `count`: number of luminances. \[sr\]
-    fn scattered(&self, first: usize, by_point: &[Vec<Counts>], count: usize) -> Vec<[f32; TOGETHER]> {
+    /// luminance by luminance. `count`: number of luminances. \[sr\]
+    fn scattered(&self, first: usize, count: usize) -> Vec<[f32; TOGETHER]> {
         let Some(sent) = &self.sent else { return Vec::new() };
         let count_of_points = self.grid.count();
         let mut light = vec![[0.0_f32; TOGETHER]; sent.patches.len() * count_of_points];
@@ -248,7 +249,7 @@ impl Past {
             }
         }
         let mut sums = vec![[0.0; TOGETHER]; count];
-        for (point, by_patch) in by_point.iter().enumerate() {
+        for (point, by_patch) in self.by_point.iter().enumerate() {
             for (seen, light) in by_patch.iter().zip(light.chunks_exact(count_of_points)) {
                 // By value, so that the lanes are added at once.
                 let light = light[point];

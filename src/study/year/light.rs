@@ -100,6 +100,11 @@ impl Progress for Counted<'_> {
     }
 }
 
+/// The last computation in a climate, in use until the next is prepared: thus the light of the year that both need stays
+/// in the session's store, however small its limit is.
+#[derive(Clone, Default)]
+pub(super) struct Latest(Arc<Mutex<Option<Arc<Engine>>>>);
+
 /// Computes the illuminances in the chosen steps. `states`: states of the moving apertures in all steps; `chosen`:
 /// indices of the steps.
 ///
@@ -109,6 +114,7 @@ pub(super) fn light(
     question: &Question<'_>,
     states: &[Vec<usize>],
     chosen: &[usize],
+    latest: &Latest,
     progress: &dyn Progress,
 ) -> Result<Light, StudyError> {
     let places = question.settings.sensors + question.settings.eyes.len();
@@ -122,7 +128,8 @@ pub(super) fn light(
     let mut light = Light::zeros(chosen.len(), places, lit, groups.len());
     let mut done = 0;
     for (set, rows) in groups {
-        let engine = Engine::new(question, prepared(question, set)?, rows.len(), progress)?;
+        let engine = Arc::new(Engine::new(question, prepared(question, set)?, rows.len(), progress)?);
+        *latest.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&engine));
         let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
         let put = |index: usize, found: Found| {
             let (values, errors): (Vec<f64>, Vec<f64>) = found.light.iter().map(|e| (e.value, e.error)).unzip();

@@ -133,7 +133,7 @@ pub(super) fn lm83(
         let chosen: Vec<usize> = rest.iter().map(|&row| question.chosen[row]).collect();
         let nothing = vec![Vec::new(); steps.list.len()];
         // Notes on how the light is computed are already in the year's.
-        let light = light::light(&asked, &nothing, &chosen, progress)?;
+        let light = light::light(&asked, &nothing, &chosen, &light::Latest::default(), progress)?;
         rest.iter().enumerate().for_each(|(from, &row)| put(row, &light, from));
     }
     Ok(Lm83 { groups, worked: all, values, errors })

@@ -125,12 +125,13 @@ pub struct Year {
 
 /// Settings and weather of a year, which do not depend on the systems in the apertures: read once, used for every
 /// product.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Climate {
     /// Settings: checked keys of `[year]`.
     pub settings: Settings,
     /// All steps of the weather file.
     pub steps: Arc<Steps>,
+    latest: light::Latest,
 }
 
 /// Reads settings and weather of a scene's year. `base`: folder of the scene.
@@ -140,7 +141,7 @@ pub struct Climate {
 pub fn climate(file: &SceneFile, base: &Path) -> Result<Climate, StudyError> {
     let settings = settings(file)?;
     let steps = Arc::new(steps::steps(file, &settings, base)?);
-    Ok(Climate { settings, steps })
+    Ok(Climate { settings, steps, latest: Default::default() })
 }
 
 /// Computes the annual simulation of a scene, for the steps for which `wanted` returns `true`. `base`: folder of the
@@ -227,7 +228,7 @@ fn computed(
         spent.push((stage, clock.elapsed()));
         clock = Instant::now();
     };
-    let Climate { settings, steps } = climate.clone();
+    let Climate { settings, steps, latest } = climate.clone();
     let mut notes = steps.warnings.clone();
     let asked = states::Question { file, base, library, session, settings: &settings, steps: &steps };
     let States { moving, list: states, movements, indoor } = states::states(&asked, &mut notes, progress)?;
@@ -240,7 +241,7 @@ fn computed(
         light::Question { file, base, library, session, settings: &settings, steps: &steps, moving: &moving };
     let light = match kept {
         Some(kept) => resume::light(&question, &states, &chosen, kept, progress)?,
-        None => light::light(&question, &states, &chosen, progress)?,
+        None => light::light(&question, &states, &chosen, &latest, progress)?,
     };
     lap("light");
     let whole = steps.whole && chosen.len() == steps.list.len();
@@ -310,7 +311,7 @@ pub fn scene_at(
     time: jiff::civil::DateTime,
     progress: &dyn Progress,
 ) -> Result<SceneFile, StudyError> {
-    let Climate { settings, steps } = climate(file, base)?;
+    let Climate { settings, steps, .. } = climate(file, base)?;
     let session = &Session::new();
     let asked = states::Question { file, base, library, session, settings: &settings, steps: &steps };
     let States { moving, list: states, .. } = states::states(&asked, &mut Vec::new(), progress)?;
