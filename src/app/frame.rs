@@ -31,7 +31,7 @@ const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
 const REST: Duration = Duration::from_secs(30);
 /// Divisor of the limit of stored results after [`REST`], when a quarter holds what one scene needs again, and while
 /// products are ranked: a ranking of all built-in products takes no longer with 64 MB than with 1 GB.
-const FEW: usize = 4;
+const PART: usize = 4;
 
 impl App {
     /// Creates a window, without drawing it.
@@ -222,8 +222,8 @@ impl App {
         let Some(store) = self.shell.services.engine.store() else { return };
         let limit = self.shell.state.settings.store_limit.saturating_mul(MEGABYTE);
         let until_rest = REST.checked_sub(self.shell.jobs.idle());
-        let few = until_rest.is_none() || self.shell.jobs.busy(Lane::Rank);
-        store.set_limit(if few { limit / FEW } else { limit });
+        let part = until_rest.is_none() || self.shell.jobs.busy(Lane::Rank);
+        store.set_limit(if part { limit / PART } else { limit });
         if let Some(left) = until_rest {
             ctx.request_repaint_after(left);
         }

@@ -8,8 +8,8 @@ use std::convert::Infallible;
 use std::marker::PhantomData;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Part of a store's limit that results which are not in use may take, however large those in use are: the small ones
-/// that are needed beside a large one. Chosen: cost only, no effect on results.
+/// Divisor of a store's limit: results that are not in use may take this part of it, however large those in use are,
+/// because small ones are needed beside a large one. Chosen: cost only, no effect on results.
 const BESIDE: usize = 4;
 
 /// Key of a result: the bits of all numbers on which it depends.
@@ -21,7 +21,7 @@ pub struct Store(Mutex<Stored>);
 
 /// Results of a store with their memory.
 struct Stored {
-    /// Maximum memory of all results. \[bytes\]
+    /// Maximum memory of all results, as long as computations do not use more. \[bytes\]
     limit: usize,
     /// Memory of all results. \[bytes\]
     bytes: usize,
@@ -35,6 +35,13 @@ struct Stored {
 struct Entry {
     value: Arc<dyn Any + Send + Sync>,
     bytes: usize,
+}
+
+impl Entry {
+    /// Returns the memory of a result that a computation, or another result, is using; 0 for others. \[bytes\]
+    fn bytes_in_use(&self) -> usize {
+        if Arc::strong_count(&self.value) > 1 { self.bytes } else { 0 }
+    }
 }
 
 impl Store {
@@ -53,13 +60,13 @@ impl Store {
         self.lock().bytes
     }
 
-    /// Sets the maximum memory of all results \[bytes\], and removes those beyond it that are not in use.
+    /// Sets the maximum memory of all results \[bytes\], and removes results that are not in use until it is kept.
     pub fn set_limit(&self, limit: usize) {
         let mut stored = self.lock();
-        if stored.limit != limit {
-            stored.limit = limit;
-            let removed = stored.within_limit();
-            drop(stored);
+        stored.limit = limit;
+        let removed = stored.within_limit();
+        drop(stored);
+        if !removed.is_empty() {
             free(removed);
         }
     }
@@ -80,26 +87,24 @@ fn free(removed: impl Send + 'static) {
 }
 
 impl Stored {
-    /// Removes the least recently used of the results that are not in use until all results are within the limit, or
-    /// those take a part of it ([`BESIDE`]), and returns them.
+    /// Removes the least recently used of the results that are not in use, until all results are within the limit or
+    /// those take at most a part of it ([`BESIDE`]); returns the removed ones.
     fn within_limit(&mut self) -> Vec<((usize, Key), Entry)> {
         let mut removed = Vec::new();
         if self.bytes <= self.limit {
             return removed;
         }
-        // Nobody can begin to use a result while the store is locked.
-        let in_use = self.results.iter().filter(|(_, entry)| Arc::strong_count(&entry.value) > 1);
-        let (places, sizes): (Vec<_>, Vec<_>) = in_use.map(|(place, entry)| (place.clone(), entry.bytes)).unzip();
-        // Their last use is now.
-        for place in &places {
-            self.results.get(place);
-        }
-        let used: usize = sizes.into_iter().sum();
+        let used: usize = self.results.iter().map(|(_, entry)| entry.bytes_in_use()).sum();
         let most = self.limit.max(used + self.limit / BESIDE);
         while self.bytes > most {
-            let Some(result) = self.results.remove_lru() else { break };
-            self.bytes -= result.1.bytes;
-            removed.push(result);
+            let Some((place, entry)) = self.results.remove_lru() else { break };
+            // Nobody can begin to use a result while the store is locked: there is one to remove.
+            if entry.bytes_in_use() > 0 {
+                self.results.insert(place, entry);
+            } else {
+                self.bytes -= entry.bytes;
+                removed.push((place, entry));
+            }
         }
         removed
     }
@@ -125,11 +130,6 @@ impl<T: Send + Sync + 'static> Cache<T> {
     /// Whether the result of a key is stored.
     pub fn holds(&self, key: &Key) -> bool {
         self.store.lock().results.peek(&(self.number, key.clone())).is_some()
-    }
-
-    /// Marks the result of a key as used, if it is stored.
-    pub fn touch(&self, key: &Key) {
-        self.store.lock().results.get(&(self.number, key.clone()));
     }
 
     /// Returns the result of a key; it is computed if it is not stored. Two threads may compute the same result at the
@@ -209,7 +209,7 @@ mod tests {
         }
         store.set_limit(2000);
         holds(&[600, 1200]);
-        even.touch(&vec![600]);
+        even.find(vec![600], || unreachable!("it is stored"));
         store.set_limit(700);
         holds(&[600]);
         store.clear();

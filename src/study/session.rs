@@ -43,7 +43,7 @@ use crate::compute::quadrature::Tolerance;
 use crate::compute::room::back_reflection::RoomSide;
 use crate::compute::room::band_weights::BandWeights;
 use crate::compute::room::direct::{self, DirectLight, Reception, Sensor};
-use crate::compute::room::exchange::Exchanges;
+use crate::compute::room::exchange::Exchange;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::grid::CellWeights;
 use crate::compute::room::near_field::{Integrator, NearField};
@@ -84,7 +84,7 @@ const OF_SUNS: usize = 8 << 20;
 /// Session: caches of intermediate results for computing the light of scenes. One session lasts as long as the program,
 /// and is shared between threads.
 pub struct Session {
-    exchanges: Cache<Exchanges>,
+    exchanges: Cache<Exchange>,
     rooms: Cache<Radiosity>,
     gather: Cache<Vec<[Reconstruction; 2]>>,
     reception: Cache<Vec<Reception>>,
@@ -134,7 +134,7 @@ impl Session {
     /// Creates a session whose results are in `store`; they share its limit with those of other sessions there.
     pub fn storing(store: &Arc<Store>) -> Self {
         Self {
-            exchanges: Cache::new(store, Exchanges::bytes),
+            exchanges: Cache::new(store, Exchange::bytes),
             rooms: Cache::new(store, Radiosity::bytes),
             gather: Cache::new(store, |all| all.iter().flatten().map(bytes::of_reconstruction).sum()),
             reception: Cache::new(store, |all| all.iter().map(bytes::of_reception).sum()),

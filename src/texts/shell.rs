@@ -37,10 +37,10 @@ texts! {
     const ABOUT = "About cfs" | "Über cfs";
     fn version(number) = "Version {number}" | "Version {number}";
     const STORED_RESULTS = "Stored results" | "Gespeicherte Ergebnisse";
-    const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those used least recently are removed first, and all but a quarter of the maximum during a ranking, or when nothing has been computed for half a minute; what a computation is using stays; no result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die am längsten nicht benutzten entfernt, und alle bis auf ein Viertel des Höchstwerts, während eine Rangfolge berechnet wird oder wenn eine halbe Minute lang nichts berechnet wurde; was eine Berechnung benutzt, bleibt; kein Ergebnis hängt davon ab, was gespeichert ist.";
+    const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those used least recently are removed first, and all but a quarter of the maximum during a ranking, or when nothing has been computed for half a minute. What a computation is using stays, even beyond the maximum. No result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die am längsten nicht benutzten entfernt, und alle bis auf ein Viertel des Höchstwerts, während eine Rangfolge berechnet wird oder wenn eine halbe Minute lang nichts berechnet wurde. Was eine Berechnung benutzt, bleibt, auch über den Höchstwert hinaus. Kein Ergebnis hängt davon ab, was gespeichert ist.";
     const STORE_IN_USE = "In use" | "Belegt";
     const STORE_LIMIT = "Maximum" | "Höchstens";
-    const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years, rankings and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre, Rangfolgen und große Räume";
+    const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre und große Räume";
     const ACCURACY = "Accuracy" | "Genauigkeit";
     const GONIOPHOTOMETER = "Goniophotometer" | "Goniophotometer";
     const PRODUCT = "Product" | "Produkt";

@@ -6,43 +6,31 @@
 use super::form_factor::{parallel_corner, perpendicular_corner};
 use super::mesh::{Mesh, Nested, Wall};
 use faer::MatRef;
-use std::sync::Arc;
 
-/// Exchange areas between the meshes of a room. They depend on its shape alone, so that rooms whose surfaces differ in
-/// reflectance share them.
-pub struct Exchanges {
-    /// Exchange areas of the coarse patches with the fine ones.
-    pub level: Arc<Exchange>,
-    /// Exchange areas of the coarser patches with the coarse ones.
-    pub coarser: Arc<Exchange>,
-}
-
-impl Exchanges {
-    /// Computes the exchange areas of a meshed room.
-    pub fn new(nested: &Nested) -> Self {
-        let level = Exchange::new(&nested.coarse, &nested.fine);
-        let coarser = level.gathered(
-            Some(&nested.coarser_of_coarse),
-            nested.coarser.patches.len(),
-            &nested.coarse_of_fine,
-            nested.coarse.patches.len(),
-        );
-        Self { level: Arc::new(level), coarser: Arc::new(coarser) }
-    }
-
-    /// Returns the memory that they take. \[bytes\]
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.level.values[..]) + size_of_val(&self.coarser.values[..])
-    }
-}
-
-/// Exchange areas A·F (area times form factor) of every receiving patch (row) and emitting patch (column). \[m²\]
+/// Exchange areas A·F (area times form factor) of every receiving patch (row) and emitting patch (column). \[m²\] They
+/// depend on the shape of a room alone, so that rooms whose surfaces differ in reflectance share them.
 pub struct Exchange {
     columns: usize,
     values: Vec<f64>,
 }
 
 impl Exchange {
+    /// Computes the exchange areas of the coarse patches of a meshed room with the fine ones.
+    pub fn level(nested: &Nested) -> Self {
+        Self::new(&nested.coarse, &nested.fine)
+    }
+
+    /// Returns the exchange areas of the coarser patches with the coarse ones, by sums of those of [`Self::level`].
+    pub fn coarser(&self, nested: &Nested) -> Self {
+        let (receivers, emitters) = (nested.coarser.patches.len(), nested.coarse.patches.len());
+        self.gathered(Some(&nested.coarser_of_coarse), receivers, &nested.coarse_of_fine, emitters)
+    }
+
+    /// Returns the memory that they take. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.values[..])
+    }
+
     /// Computes the exchange areas between the patches of two meshes of the same box room.
     pub fn new(receivers: &Mesh, emitters: &Mesh) -> Self {
         let columns = emitters.patches.len();

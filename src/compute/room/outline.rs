@@ -188,7 +188,6 @@ fn samples(wall: &Wall, corners: &[DVec2], rule: &[(f64, f64)]) -> Vec<(DVec3, f
 
 #[cfg(test)]
 mod tests {
-    use super::super::exchange::Exchanges;
     use super::super::mesh::{BoxRoom, Nested};
     use super::super::radiosity::Radiosity;
     use super::*;
@@ -274,8 +273,7 @@ mod tests {
     #[test]
     fn what_an_outline_reflects_is_absorbed_in_the_end() {
         let nested = Nested::with_about(&room(1.0), &[], &[], 640).unwrap();
-        let exchanges = Exchanges::new(&nested);
-        let radiosity = Radiosity::new(nested, &exchanges).unwrap();
+        let radiosity = Radiosity::alone(nested).unwrap();
         let patches = &radiosity.nested.fine.patches;
         let outline = on_floor([[1.0, 2.0], [1.07, 2.0], [1.07, 2.4], [1.0, 2.4]]);
         let (incident, _) = patch_illuminances(&radiosity.nested.fine, std::slice::from_ref(&outline));

@@ -11,7 +11,7 @@
 //! in the size of the patches, so that a third of the difference is added, and the difference shows the remaining
 //! error.
 
-use super::exchange::{Exchange, Exchanges};
+use super::exchange::Exchange;
 use super::mesh::{Mesh, Nested, Patch};
 use crate::compute::dot::dot;
 use faer::linalg::solvers::{Llt, Solve};
@@ -76,20 +76,26 @@ pub fn enough_is_absorbed(mesh: &Mesh, reflectance: impl Fn(&Patch) -> f64) -> R
 }
 
 impl Radiosity {
-    /// Factors the interreflection equations of a meshed room. `exchanges`: exchange areas of these meshes. Memory: a
-    /// dense matrix of the coarse patches, beside the shared exchange areas.
+    /// Factors the interreflection equations of a meshed room. `level`, `coarser`: exchange areas of its meshes
+    /// ([`Exchange::level`], [`Exchange::coarser`]). Memory: a dense matrix of the coarse patches, beside the shared
+    /// exchange areas.
     ///
     /// # Errors
     /// Returns an error if the surfaces absorb too little light ([`MOST_REFLECTANCE`]).
-    pub fn new(nested: Nested, exchanges: &Exchanges) -> Result<Self, NothingAbsorbs> {
+    pub fn new(nested: Nested, level: Arc<Exchange>, coarser: Arc<Exchange>) -> Result<Self, NothingAbsorbs> {
         let mean = enough_is_absorbed(&nested.fine, |patch| patch.reflectance)?;
         let singular = NothingAbsorbs { mean };
-        let balance = |exchange: &Arc<Exchange>, receivers: &Mesh, holder: &[usize]| {
-            MeshBalance::new(Arc::clone(exchange), receivers, holder).ok_or(singular)
-        };
-        let coarser = balance(&exchanges.coarser, &nested.coarser, &nested.coarser_of_coarse)?;
-        let level = balance(&exchanges.level, &nested.coarse, &nested.coarse_of_fine)?;
+        let coarser = MeshBalance::new(coarser, &nested.coarser, &nested.coarser_of_coarse).ok_or(singular)?;
+        let level = MeshBalance::new(level, &nested.coarse, &nested.coarse_of_fine).ok_or(singular)?;
         Ok(Self { nested, level, coarser })
+    }
+
+    /// Factors the equations of a room that shares its exchange areas with no other.
+    #[cfg(test)]
+    pub(super) fn alone(nested: Nested) -> Result<Self, NothingAbsorbs> {
+        let level = Exchange::level(&nested);
+        let coarser = level.coarser(&nested);
+        Self::new(nested, Arc::new(level), Arc::new(coarser))
     }
 
     /// Returns the memory that its equations and patches take, without the exchange areas. \[bytes\]
@@ -331,8 +337,7 @@ mod tests {
     fn radiosity(room: &BoxRoom, apertures: &[Aperture], rho: f64, count: usize) -> Radiosity {
         let reflectances = vec![rho; apertures.len()];
         let nested = Nested::with_about(room, apertures, &reflectances, count).unwrap();
-        let exchanges = Exchanges::new(&nested);
-        Radiosity::new(nested, &exchanges).unwrap()
+        Radiosity::alone(nested).unwrap()
     }
 
     #[test]
@@ -436,8 +441,7 @@ mod tests {
         assert!((floor / entered - 1.0).abs() < 1e-9, "{floor} {entered}");
         for rho in [1.0, 0.9995] {
             let nested = Nested::with_about(&room(rho), &[window()], &[rho], 300).unwrap();
-            let exchanges = Exchanges::new(&nested);
-            let refused = Radiosity::new(nested, &exchanges).err().unwrap().to_string();
+            let refused = Radiosity::alone(nested).err().unwrap().to_string();
             assert!(refused.contains("0.999"), "{refused}");
         }
     }

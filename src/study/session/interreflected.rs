@@ -8,7 +8,7 @@ use crate::compute::dot::dot;
 use crate::compute::estimate::{Estimate, Progress};
 use crate::compute::room::aperture::Aperture;
 use crate::compute::room::back_reflection::{BackReflection, settled_light};
-use crate::compute::room::exchange::Exchanges;
+use crate::compute::room::exchange::Exchange;
 use crate::compute::room::first_bounce::FirstLight;
 use crate::compute::room::gather::Reconstruction;
 use crate::compute::room::mesh::{Mesh, Nested, Wall};
@@ -84,17 +84,15 @@ impl Session {
     /// Returns the room with about `count` fine patches, with its interreflection solved (factored); computed or
     /// stored.
     pub(super) fn radiosity(&self, scene: &Scene, count: usize) -> Result<Arc<Radiosity>, StudyError> {
-        let shape = mesh_key(scene, count);
-        let room = self.rooms.get(room_key(scene, count), || {
+        self.rooms.get(room_key(scene, count), || {
             let geometry: Vec<_> = scene.apertures.iter().map(|a| a.aperture).collect();
             let reflectances: Vec<f64> = scene.apertures.iter().map(|a| a.diffuse_reflectance()).collect();
             let nested = Nested::with_about(&scene.room, &geometry, &reflectances, count)?;
-            let exchanges = self.exchanges.find(shape.clone(), || Exchanges::new(&nested));
-            Radiosity::new(nested, &exchanges).map_err(StudyError::from)
-        })?;
-        // Exchange areas that are removed before the rooms that share them would take memory that nothing counts.
-        self.exchanges.touch(&shape);
-        Ok(room)
+            let key = |mesh: u64| mesh_key(scene, count).into_iter().chain([mesh]).collect();
+            let level = self.exchanges.find(key(0), || Exchange::level(&nested));
+            let coarser = self.exchanges.find(key(1), || level.coarser(&nested));
+            Radiosity::new(nested, level, coarser).map_err(StudyError::from)
+        })
     }
 
     /// Returns the weights with which every sensor sees the patches: stored, or, for more sensors than can be stored,

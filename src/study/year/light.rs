@@ -100,8 +100,8 @@ impl Progress for Counted<'_> {
     }
 }
 
-/// The last computation in a climate, in use until the next is prepared: thus the light of the year that both need stays
-/// in the session's store, however small its limit is.
+/// The computation that [`light`] has prepared last in a climate, in use until the next is prepared: thus the light of
+/// the year that both need stays in the session's store, however small its limit is.
 #[derive(Clone, Default)]
 pub(super) struct Latest(Arc<Mutex<Option<Arc<Engine>>>>);
 
@@ -129,7 +129,9 @@ pub(super) fn light(
     let mut done = 0;
     for (set, rows) in groups {
         let engine = Arc::new(Engine::new(question, prepared(question, set)?, rows.len(), progress)?);
-        *latest.0.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(&engine));
+        let before = latest.0.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&engine));
+        // Without holding the lock.
+        drop(before);
         let steps: Vec<usize> = rows.iter().map(|&row| chosen[row]).collect();
         let put = |index: usize, found: Found| {
             let (values, errors): (Vec<f64>, Vec<f64>) = found.light.iter().map(|e| (e.value, e.error)).unzip();
