@@ -234,6 +234,6 @@ mod tests {
         assert_eq!(held(), [true, false, false, true]);
         drop(used);
         store.set_limit(300);
-        assert_eq!(held(), [false; 4]);
+        assert_eq!(held(), [true, false, false, false]);
     }
 }
