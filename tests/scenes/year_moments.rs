@@ -5,7 +5,7 @@ use crate::rooms::*;
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{Btdf, CellMatrix, Dataset, Scattered, TensorTree, TreeAxes, TreeNode, TreeRank};
 use cfs::compute::estimate::Silent;
-use cfs::study::year::{scene_at, year};
+use cfs::study::year::{Step, scene_at, year};
 use cfs::study::{Library, Scene, SceneFile, Session, SystemLibrary};
 use std::path::Path;
 
@@ -174,6 +174,20 @@ const BOXES: &str = "[[outside]]\nbox = { from = [-0.5, -1.2, 2.75], to = [4.5, 
     [[outside]]\nbox = { from = [3.55, -0.9, 0.5], to = [3.7, 0.0, 2.7] }\nreflectance = 0.6\n\
     [[outside]]\nbox = { from = [-10.0, -25.0, 0.0], to = [14.0, -15.0, 8.0] }\nreflectance = 0.3\n\
     [building]\nfrom = [-6.0, 0.0, 0.0]\nto = [10.0, 12.0, 9.0]\nreflectance = 0.3\n";
+
+/// Hours of June, beside those of the whole year and by themselves.
+#[test]
+fn hours_behind_boxes_do_not_depend_on_the_number_computed_together() {
+    let file = SceneFile::parse(&text(MADE, "", BOXES).replace("w.wea", "builtin:renton")).unwrap();
+    let made = Made(Some(klems(rough)));
+    let of =
+        |wanted: &dyn Fn(&Step) -> bool| year(&file, Path::new("."), &made, &Session::new(), wanted, &Silent).unwrap();
+    let (all, june) = (of(&|_| true), of(&|step| step.month == 6));
+    assert!(june.chosen.len() == 720 && june.light.dark < 360 && all.chosen.len() == 8760);
+    for (row, &k) in june.chosen.iter().enumerate() {
+        assert_eq!(june.light.values.row(row), all.light.values.row(k), "{}", june.steps.list[k].time);
+    }
+}
 
 #[test]
 fn light_behind_boxes_is_that_of_the_moment() {

@@ -33,8 +33,9 @@ use rayon::prelude::*;
 use std::hash::{DefaultHasher, Hasher};
 use std::sync::{Arc, OnceLock};
 
-/// Maximum number of skies whose illuminances are computed together.
-pub(crate) const TOGETHER: usize = 128;
+/// Maximum number of skies whose illuminances are computed together. With more than 64 columns, products of matrices of
+/// up to 64 rows sum in another order than with fewer, if there is as much to sum as behind boxes.
+pub(crate) const TOGETHER: usize = 64;
 /// Multiple to which the number of skies is filled up with dark ones, so that the sums for a sky do not depend on the
 /// number of others.
 const COLUMNS: usize = 32;
