@@ -237,23 +237,22 @@ impl Layered {
         // Inward and outward light in the gap for light from outside, then for light from inside, whose outward part is
         // what came through plus what the inner layer reflects.
         let series = r1_back.times(&r2).series();
-        let inward = series.of(&t1);
-        drop(t1);
+        let inward = series.of(t1);
         let outward = r2.times(&inward);
         let from_outside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&a[0], &inward, &outward, &a[1], &b[0]);
         let (absorbed_front, error_front) =
             (from_outside(&absorbed, &inner.absorbed), from_outside(&error, &inner.error));
-        let (t, r) = (t2.times(&inward), r1.plus(&t1_back.times(&outward)));
-        drop((inward, outward, r1));
-        let inward = series.of(&r1_back.times(&t2_back));
+        let (r, t) = (r1.plus(t1_back.times(&outward)), t2.times(&inward));
+        drop((inward, outward));
+        let inward = series.of(r1_back.times(&t2_back));
         drop((series, r1_back));
-        let outward = t2_back.plus(&r2.times(&inward));
-        drop((t2_back, r2));
+        let outward = t2_back.plus(r2.times(&inward));
+        drop(r2);
         let from_inside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&b[1], &inward, &outward, &a[1], &b[0]);
         let (absorbed_back, error_back) = (from_inside(&absorbed, &inner.absorbed), from_inside(&error, &inner.error));
         Self {
             t: [t, t1_back.times(&outward)],
-            r: [r, r2_back.plus(&t2.times(&inward))],
+            r: [r, r2_back.plus(t2.times(&inward))],
             absorbed: [absorbed_front, absorbed_back],
             error: [error_front, error_back],
         }

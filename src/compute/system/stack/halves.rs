@@ -64,7 +64,7 @@ impl Halves {
             (at(a, c) + at(b, d) + sign * (at(a, d) + at(b, c))) * 0.5 * self.factor(row) * self.factor(column)
         };
         let (n, m) = (self.members.len(), self.pairs);
-        Flux { even: Mat::from_fn(n, n, |r, c| sums(r, c, 1.0)), odd: Mat::from_fn(m, m, |r, c| sums(r, c, -1.0)) }
+        Flux { even: Part::new(n, |r, c| sums(r, c, 1.0)), odd: Part::new(m, |r, c| sums(r, c, -1.0)) }
     }
 
     /// Returns the normalisation of a pair: 1, or 1/√2 for a cell that is its own image, which sums over pairs count
@@ -77,8 +77,8 @@ impl Halves {
     pub fn entry(&self, flux: &Flux, row: usize, column: usize) -> f64 {
         let ((r, sign_r), (c, sign_c)) = (self.of[row], self.of[column]);
         let even = |member: usize| if member < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
-        let odd = if sign_r * sign_c == 0.0 { 0.0 } else { sign_r * sign_c * flux.odd[(r, c)] };
-        flux.even[(r, c)] * even(r) * even(c) + odd
+        let odd = if sign_r * sign_c == 0.0 { 0.0 } else { sign_r * sign_c * flux.odd.entry(r, c) };
+        flux.even.entry(r, c) * even(r) * even(c) + odd
     }
 
     /// Returns the even part, one value per pair, of a list over all cells in which mirror images have the same value.
@@ -96,44 +96,140 @@ impl Halves {
 
 /// Flux matrix of a system that is symmetric left to right, as an even and an odd part.
 pub(super) struct Flux {
-    even: Mat<f64>,
-    odd: Mat<f64>,
+    even: Part,
+    odd: Part,
 }
 
 impl Flux {
     /// Returns the matrix product self · other: the effect of `other`, then of `self`, on light.
     pub fn times(&self, other: &Self) -> Self {
-        Self { even: &self.even * &other.even, odd: &self.odd * &other.odd }
+        Self { even: self.even.times(&other.even), odd: self.odd.times(&other.odd) }
     }
 
     /// Returns the sum of both matrices.
-    pub fn plus(&self, other: &Self) -> Self {
-        Self { even: &self.even + &other.even, odd: &self.odd + &other.odd }
+    pub fn plus(self, other: Self) -> Self {
+        Self { even: self.even.plus(other.even), odd: self.odd.plus(other.odd) }
     }
 
     /// Returns (1 − self)⁻¹, the sum of the geometric series of reflections, factorised for its application.
-    pub fn series(&self) -> Series {
-        let one = |part: &Mat<f64>| (Mat::<f64>::identity(part.nrows(), part.nrows()) - part).partial_piv_lu();
-        Series { even: one(&self.even), odd: one(&self.odd) }
+    pub fn series(self) -> Series {
+        Series { even: self.even.series(), odd: self.odd.series() }
     }
 
     /// Returns the sum over the rows of every column, weighted by `weights`, one per pair of cells.
     pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
-        let n = weights.len();
-        (0..n).map(|i| (0..n).map(|k| self.even[(k, i)] * weights[k]).sum()).collect()
+        self.even.weighted(weights)
     }
 }
 
 /// Sum of all reflections between two layers, (1 − R)⁻¹.
 pub(super) struct Series {
-    even: PartialPivLu<f64>,
-    odd: PartialPivLu<f64>,
+    even: PartSeries,
+    odd: PartSeries,
 }
 
 impl Series {
     /// Returns (1 − R)⁻¹ · `light`: the light itself plus all light that it becomes by reflections between the layers.
-    pub fn of(&self, light: &Flux) -> Flux {
-        Flux { even: self.even.solve(&light.even), odd: self.odd.solve(&light.odd) }
+    pub fn of(&self, light: Flux) -> Flux {
+        Flux { even: self.even.of(light.even), odd: self.odd.of(light.odd) }
+    }
+}
+
+/// Square matrix. Panes keep the directions of light: of a matrix without entries beside its diagonal only the diagonal
+/// is stored, which makes products with it as quick as sums.
+enum Part {
+    Diagonal(Vec<f64>),
+    Full(Mat<f64>),
+}
+
+impl Part {
+    /// Creates a matrix of `n` rows and columns from its entries `at(row, column)`.
+    fn new(n: usize, at: impl Fn(usize, usize) -> f64) -> Self {
+        if (0..n).all(|c| (0..n).all(|r| r == c || at(r, c) == 0.0)) {
+            Self::Diagonal((0..n).map(|k| at(k, k)).collect())
+        } else {
+            Self::Full(Mat::from_fn(n, n, at))
+        }
+    }
+
+    fn entry(&self, row: usize, column: usize) -> f64 {
+        match self {
+            Self::Full(matrix) => matrix[(row, column)],
+            Self::Diagonal(list) if row == column => list[row],
+            Self::Diagonal(_) => 0.0,
+        }
+    }
+
+    fn times(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Diagonal(a), Self::Diagonal(b)) => Self::Diagonal(a.iter().zip(b).map(|(a, b)| a * b).collect()),
+            (Self::Diagonal(a), Self::Full(b)) => Self::Full(Mat::from_fn(a.len(), a.len(), |r, c| a[r] * b[(r, c)])),
+            (Self::Full(a), Self::Diagonal(b)) => Self::Full(Mat::from_fn(b.len(), b.len(), |r, c| a[(r, c)] * b[c])),
+            (Self::Full(a), Self::Full(b)) => Self::Full(a * b),
+        }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Diagonal(a), Self::Diagonal(b)) => Self::Diagonal(a.iter().zip(&b).map(|(a, b)| a + b).collect()),
+            (Self::Diagonal(list), Self::Full(mut matrix)) | (Self::Full(mut matrix), Self::Diagonal(list)) => {
+                for (k, entry) in list.into_iter().enumerate() {
+                    matrix[(k, k)] += entry;
+                }
+                Self::Full(matrix)
+            }
+            (Self::Full(mut a), Self::Full(b)) => {
+                a += &b;
+                Self::Full(a)
+            }
+        }
+    }
+
+    fn series(self) -> PartSeries {
+        match self {
+            Self::Diagonal(list) => {
+                PartSeries::Diagonal(Self::Diagonal(list.into_iter().map(|r| 1.0 / (1.0 - r)).collect()))
+            }
+            Self::Full(matrix) => {
+                let n = matrix.nrows();
+                PartSeries::Full((Mat::<f64>::identity(n, n) - matrix).partial_piv_lu())
+            }
+        }
+    }
+
+    fn weighted(&self, weights: &[f64]) -> Vec<f64> {
+        match self {
+            Self::Diagonal(list) => list.iter().zip(weights).map(|(entry, weight)| entry * weight).collect(),
+            Self::Full(matrix) => {
+                let n = weights.len();
+                (0..n).map(|i| (0..n).map(|k| matrix[(k, i)] * weights[k]).sum()).collect()
+            }
+        }
+    }
+}
+
+/// Factorised (1 − R)⁻¹ of one part.
+enum PartSeries {
+    /// The diagonal of (1 − R)⁻¹.
+    Diagonal(Part),
+    Full(PartialPivLu<f64>),
+}
+
+impl PartSeries {
+    fn of(&self, light: Part) -> Part {
+        match (self, light) {
+            (Self::Diagonal(series), light) => series.times(&light),
+            (Self::Full(lu), Part::Full(mut light)) => {
+                lu.solve_in_place(&mut light);
+                Part::Full(light)
+            }
+            (Self::Full(lu), Part::Diagonal(light)) => {
+                let n = light.len();
+                let mut light = Mat::from_fn(n, n, |r, c| if r == c { light[r] } else { 0.0 });
+                lu.solve_in_place(&mut light);
+                Part::Full(light)
+            }
+        }
     }
 }
 
@@ -149,25 +245,43 @@ mod tests {
         move |r, c| 0.5 * (raw(r, c) + raw(IMAGE[r], IMAGE[c]))
     }
 
+    /// Light that keeps its direction, in cells that are images of each other alike.
+    fn straight(seed: f64) -> impl Fn(usize, usize) -> f64 {
+        move |r, c| if r == c { 0.1 * seed + 0.05 * r.min(IMAGE[r]) as f64 } else { 0.0 }
+    }
+
     #[test]
-    fn products_and_series_are_those_of_the_whole_matrix() {
-        let (a, b) = (mirrored(1.3), mirrored(2.1));
-        let [wa, wb] = [Mat::from_fn(5, 5, &a), Mat::from_fn(5, 5, &b)];
-        let product = &wa * &wb;
-        let series = (Mat::<f64>::identity(5, 5) - &product).partial_piv_lu().solve(&wa);
-        for halves in [Halves::new(&IMAGE), Halves::none(5)] {
-            let (fa, fb) = (halves.matrix(&a), halves.matrix(&b));
-            let (p, s) = (fa.times(&fb), fa.times(&fb).series().of(&fa).plus(&fa));
-            let list = [0.5, 0.5, 0.2, 0.7, 0.2];
-            let sums = halves.unfolded(&p.weighted(&halves.list(|k| list[k])));
-            for r in 0..5 {
+    fn products_sums_and_series_are_those_of_whole_matrices() {
+        let list: [(&str, Box<dyn Fn(usize, usize) -> f64>); 4] = [
+            ("scattered 1", Box::new(mirrored(1.3))),
+            ("scattered 2", Box::new(mirrored(2.1))),
+            ("straight 1", Box::new(straight(1.3))),
+            ("straight 2", Box::new(straight(2.1))),
+        ];
+        for ((name_a, a), (name_b, b)) in list.iter().flat_map(|a| list.iter().map(move |b| (a, b))) {
+            let [wa, wb] = [Mat::from_fn(5, 5, a), Mat::from_fn(5, 5, b)];
+            let product = &wa * &wb;
+            let series = (Mat::<f64>::identity(5, 5) - &wa).partial_piv_lu().solve(&wb);
+            for halves in [Halves::new(&IMAGE), Halves::none(5)] {
+                let (fa, fb) = (halves.matrix(a), halves.matrix(b));
+                let product_part = fa.times(&fb);
+                let shares = [0.5, 0.5, 0.2, 0.7, 0.2];
+                let sums = halves.unfolded(&product_part.weighted(&halves.list(|k| shares[k])));
+                let sum = halves.matrix(a).plus(halves.matrix(b));
+                let series_part = halves.matrix(a).series().of(halves.matrix(b));
                 for c in 0..5 {
-                    assert!((halves.entry(&fa, r, c) - a(r, c)).abs() < 1e-15);
-                    assert!((halves.entry(&p, r, c) - product[(r, c)]).abs() < 1e-15);
-                    assert!((halves.entry(&s, r, c) - series[(r, c)] - wa[(r, c)]).abs() < 1e-14);
+                    for r in 0..5 {
+                        let at = format!("{name_a}, {name_b}, {r}, {c}");
+                        assert!((halves.entry(&fa, r, c) - wa[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((halves.entry(&sum, r, c) - wa[(r, c)] - wb[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((halves.entry(&product_part, r, c) - product[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((halves.entry(&series_part, r, c) - series[(r, c)]).abs() < 1e-14, "{at}");
+                    }
+                    let whole: f64 = (0..5).map(|k| product[(k, c)] * shares[k]).sum();
+                    assert!((sums[c] - whole).abs() < 1e-15, "{name_a}, {name_b}, {c}");
                 }
-                let whole: f64 = (0..5).map(|k| product[(k, r)] * list[k]).sum();
-                assert!((sums[r] - whole).abs() < 1e-15);
+                let is_straight = |part: &Part| matches!(part, Part::Diagonal(_));
+                assert_eq!(is_straight(&fa.even), name_a.starts_with("straight"));
             }
         }
         assert_eq!(Halves::new(&IMAGE).pairs, 2);
