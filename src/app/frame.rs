@@ -29,9 +29,12 @@ use std::time::{Duration, Instant};
 const CLOSE_TIMEOUT: Duration = Duration::from_secs(60);
 /// Time without computations after which fewer results stay stored. Chosen: longer than one thinks about a picture.
 const REST: Duration = Duration::from_secs(30);
-/// Divisor of the limit of stored results after [`REST`], when a quarter holds what one scene needs again, and while
-/// products are ranked: a ranking of all built-in products takes no longer with 64 MB than with 1 GB.
+/// Divisor of the limit of stored results after [`REST`], when a quarter holds what one scene needs again, and while jobs
+/// run that need much memory themselves ([`LARGE`]).
 const PART: usize = 4;
+/// Lanes of jobs that need much memory: a ranking of all built-in products takes no longer with 64 MB than with 1 GB of
+/// stored results, and data that are computed from an optical model take 100 to 150 MB for some seconds.
+const LARGE: [Lane; 4] = [Lane::Rank, Lane::Product, Lane::Builtin, Lane::Goniophotometer];
 
 impl App {
     /// Creates a window, without drawing it.
@@ -217,14 +220,11 @@ impl App {
         }
     }
 
-    /// Limits the memory of stored results: to a part of the limit while nothing is computed, or products are ranked.
+    /// Limits the memory of stored results ([`store_limit`]).
     fn limit_store(&self, ctx: &egui::Context) {
         let Some(store) = self.shell.services.engine.store() else { return };
-        let limit = self.shell.state.settings.store_limit.saturating_mul(MEGABYTE);
-        let until_rest = REST.checked_sub(self.shell.jobs.idle());
-        let part = until_rest.is_none() || self.shell.jobs.busy(Lane::Rank);
-        store.set_limit(if part { limit / PART } else { limit });
-        if let Some(left) = until_rest {
+        store.set_limit(store_limit(&self.shell));
+        if let Some(left) = REST.checked_sub(self.shell.jobs.idle()) {
             ctx.request_repaint_after(left);
         }
     }
@@ -272,6 +272,14 @@ impl App {
     }
 }
 
+/// Returns the limit of stored results: that of the settings, or a part of it while nothing is computed, or much memory is
+/// needed. \[bytes\]
+fn store_limit(shell: &Shell) -> usize {
+    let limit = shell.state.settings.store_limit.saturating_mul(MEGABYTE);
+    let part = shell.jobs.idle() > REST || LARGE.iter().any(|lane| shell.jobs.busy(*lane));
+    if part { limit / PART } else { limit }
+}
+
 impl Drop for App {
     fn drop(&mut self) {
         if std::thread::panicking() {
@@ -281,6 +289,31 @@ impl Drop for App {
                 let (session, _, content) = self.session_with_content();
                 session.end_at_fault(&jobs, content);
             })));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::results::backend::StudyEngine;
+    use crate::app::results::work::Outcome;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn jobs_that_need_much_memory_leave_a_quarter_for_stored_results() {
+        let mut app = App::for_test(Arc::new(StudyEngine::default()));
+        let shell = &mut app.shell;
+        shell.state.settings.store_limit = 400;
+        for (lane, megabytes) in [(Lane::Room, 400), (Lane::Rank, 100), (Lane::Product, 100), (Lane::Builtin, 100)] {
+            let (end, gate) = channel::<()>();
+            shell.start(lane, move |_| {
+                _ = gate.recv();
+                Outcome::Builtin(Ok(0))
+            });
+            assert_eq!(store_limit(shell), megabytes * MEGABYTE, "{lane:?}");
+            drop(end);
+            shell.jobs.cancel(lane);
         }
     }
 }

@@ -15,8 +15,10 @@ const MOST_FAILURES: usize = 5;
 /// Time for which data of built-in products are computed in a job before their order is determined again.
 const FILLING: Duration = Duration::from_millis(500);
 
-/// Lanes whose jobs may take minutes: a paused computation would hold its memory, up to 200 MB, all that time.
-const LONG: [Lane; 5] = [Lane::Annual, Lane::Rank, Lane::Compare, Lane::Accuracy, Lane::Goniophotometer];
+/// Lanes whose jobs may take minutes, or as much memory as a computation in advance: paused, that would hold its memory,
+/// up to 200 MB, all that time.
+const CANCELLING: [Lane; 6] =
+    [Lane::Annual, Lane::Rank, Lane::Compare, Lane::Accuracy, Lane::Goniophotometer, Lane::Product];
 
 /// Computation of data of built-in products in advance.
 #[derive(Default)]
@@ -40,9 +42,10 @@ impl BuiltIn {
 
     /// Starts computing, while nothing else is computed: first the data of the selected product, then the
     /// representative states of the listed products, then the rest. After a stop it resumes when another product is
-    /// selected. It is cancelled by jobs that take long, and due again afterwards.
+    /// selected. It is cancelled by jobs that take long or much memory, and due again
+    /// afterwards.
     pub fn fill(&mut self, shell: &mut Shell) {
-        if LONG.iter().any(|lane| shell.jobs.busy(*lane)) && shell.jobs.cancel(Lane::Builtin) {
+        if CANCELLING.iter().any(|lane| shell.jobs.busy(*lane)) && shell.jobs.cancel(Lane::Builtin) {
             self.due = true;
         }
         if !self.due || !shell.jobs.views().is_empty() {
@@ -102,9 +105,9 @@ mod tests {
     use std::sync::mpsc::channel;
 
     #[test]
-    fn it_pauses_for_a_short_job_and_is_cancelled_by_a_long_one() {
+    fn it_pauses_for_a_short_job_and_is_cancelled_by_a_long_or_large_one() {
         let mut app = App::for_test(Arc::new(StudyEngine::default()));
-        for (lane, pauses) in [(Lane::Room, true), (Lane::Rank, false)] {
+        for (lane, pauses) in [(Lane::Room, true), (Lane::Rank, false), (Lane::Product, false)] {
             let shell = &mut app.shell;
             shell.start(Lane::Builtin, |job| {
                 while !job.cancelled() {}
