@@ -9,6 +9,7 @@ use cfs::app::App;
 use cfs::app::catalogue::shelf::Query;
 use cfs::app::command::Command;
 use cfs::app::compare::view::Act;
+use cfs::app::display::language::LanguageChoice;
 use cfs::app::display::theme::ThemeChoice;
 use cfs::app::export::choices::{Preview, What};
 use cfs::app::rank::board::{ChooseAct, objectives_of};
@@ -378,6 +379,9 @@ fn all_pages_can_be_read_in_light_and_dark() {
         for (page, what) in [(Page::Table, "table"), (Page::Plot, "plot"), (Page::Objectives, "objectives")] {
             look(&mut harness, |look| look.page = page);
             can_be_read(&mut harness, &format!("the choice's {what}"));
+            apply(&mut harness, Command::Language(LanguageChoice::German));
+            can_be_read(&mut harness, &format!("the choice's {what} in German"));
+            apply(&mut harness, Command::Language(LanguageChoice::English));
         }
     }
 }

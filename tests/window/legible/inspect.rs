@@ -23,6 +23,8 @@ struct Text {
     /// Outside of it nothing is drawn.
     clip: Rect,
     elided: bool,
+    /// A line ends within a word.
+    broken: bool,
     size: f32,
     /// The place among all shapes: later ones lie above.
     order: usize,
@@ -62,6 +64,7 @@ impl Painted {
             ink,
             clip,
             elided: text.galley.elided,
+            broken: is_broken(&text.galley),
             size: sizes.fold(f32::INFINITY, f32::min),
             order: self.count,
         });
@@ -87,6 +90,15 @@ pub fn words_within<S>(harness: &Harness<'_, S>, part: Rect) -> Vec<String> {
     }
     let in_sight = |text: &Text| text.ink.intersects(text.clip) && part.contains(text.ink.center());
     painted.texts.into_iter().filter(in_sight).map(|text| text.words).collect()
+}
+
+/// Does a line end within a word?
+fn is_broken(galley: &egui::Galley) -> bool {
+    galley.rows.windows(2).any(|rows| {
+        let [end, start] = [rows[0].text(), rows[1].text()];
+        let within = end.chars().last().zip(start.chars().next());
+        !rows[0].ends_with_newline && within.is_some_and(|(a, b)| a.is_alphanumeric() && b.is_alphanumeric())
+    })
 }
 
 fn beyond(inner: Rect, outer: Rect) -> bool {
@@ -116,6 +128,9 @@ pub fn problems(harness: &Harness<'_, App>) -> Vec<String> {
         let row = text.ink.right() < catalogue_edge(harness, &tiles);
         if text.elided && !row && !may_be_cut.iter().any(|start| text.words.starts_with(start)) {
             list.push(format!("cut with …: {:?}", text.words));
+        }
+        if text.broken {
+            list.push(format!("broken within a word: {:?}", text.words));
         }
         // The bare numbers of small swatches may be a little smaller.
         let number = text.words.parse::<f64>().is_ok();

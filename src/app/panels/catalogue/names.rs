@@ -24,9 +24,11 @@ fn shortened(name: &str, beside: [Option<&str>; 2], most: usize) -> String {
     let tail = most - head - 1;
     let end = letters.len() - tail;
     let differs = beside.into_iter().flatten().map(|other| common(name, other)).max().unwrap_or(0);
-    // From the word's beginning; where the difference is visible anyway the end of the name says more.
-    let word = letters[..differs.min(letters.len())].iter().rposition(|c| c.is_whitespace()).map_or(0, |at| at + 1);
-    let start = if differs >= head && word < end { word.max(head) } else { end };
+    // From the space before the word, where a line may end; where the difference is visible anyway the end of the name
+    // says more, from a space, too, if one is near.
+    let word = letters[..differs.min(letters.len())].iter().rposition(|c| c.is_whitespace()).unwrap_or(0);
+    let near = letters[end..end + tail / 2].iter().position(|c| c.is_whitespace()).unwrap_or(0);
+    let start = if differs >= head && word < end { word.max(head) } else { end + near };
     let cut = if start + tail < letters.len() { "…" } else { "" };
     let tail: String = letters[start..].iter().take(tail - cut.chars().count()).collect();
     format!("{}…{tail}{cut}", letters[..head].iter().collect::<String>())
@@ -65,10 +67,10 @@ mod tests {
         let name = "Sunshade series nine hundred, coated, alpha, with guide rails and end caps";
         let other = name.replace("alpha", "omega");
         let cut = shortened(name, [Some(&other), None], 40);
-        assert!(cut.starts_with("Sunshade") && cut.contains("alpha") && cut.chars().count() <= 40, "{cut}");
+        assert!(cut.starts_with("Sunshade") && cut.contains("… alpha") && cut.chars().count() <= 40, "{cut}");
         // With nothing like it beside it, beginning and end.
         let alone = shortened(name, [None, Some("Other")], 40);
-        assert!(alone.starts_with("Sunshade") && alone.ends_with("end caps"), "{alone}");
+        assert!(alone.starts_with("Sunshade") && alone.ends_with("… guide rails and end caps"), "{alone}");
         assert_eq!(shortened("short", [None, None], 40), "short");
         // Differing at the very end.
         let (a, b) = ("A maker's very long name of a product 45", "A maker's very long name of a product 46");

@@ -2,6 +2,7 @@
 //! products to rank.
 
 use super::input::{Action, Input};
+use super::words;
 use crate::app::paint::palette::Palette;
 use crate::study::rank::{Look, figure_words};
 use crate::study::rank_keys::{BetterKey, ObjectiveKeys};
@@ -46,8 +47,8 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
     let (name, unit) = figure_words(&one.figure);
     let mut goes = false;
     ui.horizontal_wrapped(|ui| {
-        let head = if matches!(unit, "" | "%") { name.clone() } else { format!("{name} / {unit}") };
-        ui.add(Label::new(RichText::new(head).size(13.0).strong())).on_hover_text(&one.figure);
+        let head = RichText::new(words::heading(&one.figure)).size(13.0).strong();
+        ui.add(Label::new(head)).on_hover_text(&one.figure);
         if may_go {
             let button = ui.small_button("×").on_hover_text(say::LEAVE_OUT_TIP);
             button
@@ -74,7 +75,7 @@ fn objective(ui: &mut Ui, one: &mut ObjectiveKeys, may_go: bool) -> bool {
             (&mut one.worst, high, say::WORST, say::WORST_TIP, say::worst_of(&name)),
             (&mut one.best, low, say::BEST, say::BEST_TIP, say::best_of(&name)),
         ] {
-            ui.label(RichText::new(word.get()).size(13.0));
+            ui.add(Label::new(RichText::new(word.get()).size(13.0)).extend());
             let mut shown = scale * *value;
             let range = scale * range.start()..=scale * range.end();
             let drag = DragValue::new(&mut shown).range(range).speed(speed).max_decimals(2).suffix(suffix);

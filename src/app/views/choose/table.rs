@@ -20,7 +20,7 @@ const ROW: f32 = 24.0;
 const RANK: f32 = 48.0;
 /// Width of the column of scores. \[points\]
 const SCORE: f32 = 96.0;
-/// Width of the column of an objective. \[points\]
+/// Minimum width of the column of an objective. \[points\]
 const FIGURE: f32 = 112.0;
 /// Minimum width of the column of names. \[points\]
 const NAME: f32 = 130.0;
@@ -42,14 +42,18 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(rect: Rect, objectives: usize) -> Self {
+    fn of(ui: &Ui, rect: Rect, objectives: &[String]) -> Self {
+        let headings: String = objectives.iter().map(|key| words::heading(key) + " ").collect();
+        // No word of a heading is broken.
+        let widths = headings.split_whitespace().map(|word| text(ui, word, Color32::BLACK, f32::INFINITY, 1).size().x);
+        let wide = widths.fold(FIGURE, f32::max).ceil();
         let right = rect.right() - 12.0;
         let room = right - rect.left() - RANK - SCORE - NAME - 2.0 * GAP;
-        let count = ((room / (FIGURE + GAP)).floor().max(0.0) as usize).min(objectives);
-        let first = right - count as f32 * (FIGURE + GAP);
+        let count = ((room / (wide + GAP)).floor().max(0.0) as usize).min(objectives.len());
+        let first = right - count as f32 * (wide + GAP);
         let figure = |k: usize| {
-            let left = first + GAP + k as f32 * (FIGURE + GAP);
-            [left, left + FIGURE]
+            let left = first + GAP + k as f32 * (wide + GAP);
+            [left, left + wide]
         };
         let score = [first - SCORE, first];
         let rank = rect.left() + 2.0;
@@ -67,7 +71,7 @@ fn text(ui: &Ui, words: &str, colour: Color32, width: f32, rows: usize) -> Arc<G
 /// Draws the table of the products that pass the filters of the display settings.
 pub(super) fn show(ui: &mut Ui, rect: Rect, input: &Input<'_>, list: &Shortlist, out: &mut Vec<Action>) {
     let shown = list.shown(input.look);
-    let columns = Columns::of(rect, list.list.figures.len());
+    let columns = Columns::of(ui, rect, &list.list.figures);
     let below = head(ui, rect, &columns, input, list, out);
     // Whole rows: none is cut before it is scrolled.
     let high = ((rect.bottom() - below) / ROW).floor().max(1.0) * ROW;
@@ -136,11 +140,15 @@ fn head(ui: &mut Ui, rect: Rect, columns: &Columns, input: &Input<'_>, list: &Sh
         (columns.score[0], SCORE, say::SCORE.get().to_owned(), Some(Sort::Score), say::SCORE_TIP.get().to_owned()),
     ];
     for (place, key) in columns.figures.iter().zip(&list.list.figures) {
-        let (name, unit) = figure_words(key);
         let less = list.list.objectives.get(heads.len() - 3).is_some_and(|one| one.best < one.worst);
         let better = if less { say::LESS_IS_BETTER } else { say::MORE_IS_BETTER };
-        let name = if matches!(unit, "" | "%") { name } else { format!("{name} / {unit}") };
-        heads.push((place[0], FIGURE, name, Some(Sort::Figure(key.clone())), format!("{key}: {better}")));
+        heads.push((
+            place[0],
+            place[1] - place[0],
+            words::heading(key),
+            Some(Sort::Figure(key.clone())),
+            format!("{key}: {better}"),
+        ));
     }
     let galleys: Vec<Arc<Galley>> = heads
         .iter()
@@ -262,7 +270,7 @@ fn row(
             let full = under.with_max_x(egui::lerp(under.x_range(), score as f32));
             ui.painter().rect_filled(full, 0, palette.first.gamma_multiply(if pale { 0.4 } else { 0.8 }));
             let words = words::value(figure_words(&list.list.figures[k]).1, *figure);
-            let words = text(ui, &words, colour, FIGURE, 1);
+            let words = text(ui, &words, colour, place[1] - place[0], 1);
             ui.painter().galley(pos2(place[0], middle - 2.0 - 0.5 * words.size().y), words, colour);
         }
         for (k, key) in list.list.figures.iter().enumerate().skip(columns.figures.len()) {

@@ -6,6 +6,12 @@ use crate::drawing::ticks::number;
 use crate::study::rank::{Entry, Reason, Shortlist, Term, figure_words};
 use crate::texts::{choose as say, fixed};
 
+/// Returns the name of an annual figure and its unit, as a heading.
+pub(super) fn heading(key: &str) -> String {
+    let (name, unit) = figure_words(key);
+    if matches!(unit, "" | "%") { name } else { format!("{name} / {unit}") }
+}
+
 /// Returns value and error of a figure as text: a share in %, others without their unit, which the head of the column
 /// contains.
 pub(super) fn value(unit: &str, figure: Estimate) -> String {
