@@ -252,28 +252,28 @@ mod tests {
 
     #[test]
     fn products_sums_and_series_are_those_of_whole_matrices() {
-        let list: [(&str, Box<dyn Fn(usize, usize) -> f64>); 4] = [
-            ("scattered 1", Box::new(mirrored(1.3))),
-            ("scattered 2", Box::new(mirrored(2.1))),
-            ("straight 1", Box::new(straight(1.3))),
-            ("straight 2", Box::new(straight(2.1))),
+        let list = [
+            ("scattered 1", Mat::from_fn(5, 5, mirrored(1.3))),
+            ("scattered 2", Mat::from_fn(5, 5, mirrored(2.1))),
+            ("straight 1", Mat::from_fn(5, 5, straight(1.3))),
+            ("straight 2", Mat::from_fn(5, 5, straight(2.1))),
         ];
         for ((name_a, a), (name_b, b)) in list.iter().flat_map(|a| list.iter().map(move |b| (a, b))) {
-            let [wa, wb] = [Mat::from_fn(5, 5, a), Mat::from_fn(5, 5, b)];
-            let product = &wa * &wb;
-            let series = (Mat::<f64>::identity(5, 5) - &wa).partial_piv_lu().solve(&wb);
+            let product = a * b;
+            let series = (Mat::<f64>::identity(5, 5) - a).partial_piv_lu().solve(b);
             for halves in [Halves::new(&IMAGE), Halves::none(5)] {
-                let (fa, fb) = (halves.matrix(a), halves.matrix(b));
+                let part = |whole: &Mat<f64>| halves.matrix(|r, c| whole[(r, c)]);
+                let (fa, fb) = (part(a), part(b));
                 let product_part = fa.times(&fb);
                 let shares = [0.5, 0.5, 0.2, 0.7, 0.2];
                 let sums = halves.unfolded(&product_part.weighted(&halves.list(|k| shares[k])));
-                let sum = halves.matrix(a).plus(halves.matrix(b));
-                let series_part = halves.matrix(a).series().of(halves.matrix(b));
+                let sum = part(a).plus(part(b));
+                let series_part = part(a).series().of(part(b));
                 for c in 0..5 {
                     for r in 0..5 {
                         let at = format!("{name_a}, {name_b}, {r}, {c}");
-                        assert!((halves.entry(&fa, r, c) - wa[(r, c)]).abs() < 1e-15, "{at}");
-                        assert!((halves.entry(&sum, r, c) - wa[(r, c)] - wb[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((halves.entry(&fa, r, c) - a[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((halves.entry(&sum, r, c) - a[(r, c)] - b[(r, c)]).abs() < 1e-15, "{at}");
                         assert!((halves.entry(&product_part, r, c) - product[(r, c)]).abs() < 1e-15, "{at}");
                         assert!((halves.entry(&series_part, r, c) - series[(r, c)]).abs() < 1e-14, "{at}");
                     }
