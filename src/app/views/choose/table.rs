@@ -44,8 +44,9 @@ struct Columns {
 impl Columns {
     fn of(ui: &Ui, rect: Rect, objectives: &[String]) -> Self {
         let headings: String = objectives.iter().map(|key| words::heading(key) + " ").collect();
-        // No word of a heading is broken.
-        let widths = headings.split_whitespace().map(|word| text(ui, word, Color32::BLACK, f32::INFINITY, 1).size().x);
+        // No word of a heading is broken; with the space after it, so that this does not begin the next line.
+        let words = headings.split_inclusive(' ');
+        let widths = words.map(|word| text(ui, word, Color32::BLACK, f32::INFINITY, 1).size().x);
         let wide = widths.fold(FIGURE, f32::max).ceil();
         let right = rect.right() - 12.0;
         let room = right - rect.left() - RANK - SCORE - NAME - 2.0 * GAP;
