@@ -305,7 +305,8 @@ mod tests {
         let mut app = App::for_test(Arc::new(StudyEngine::default()));
         let shell = &mut app.shell;
         shell.state.settings.store_limit = 400;
-        for (lane, megabytes) in [(Lane::Room, 400), (Lane::Rank, 100), (Lane::Product, 100), (Lane::Builtin, 100)] {
+        let large = LARGE.map(|lane| (lane, 100));
+        for (lane, megabytes) in large.into_iter().chain([(Lane::Room, 400)]) {
             let (end, gate) = channel::<()>();
             shell.start(lane, move |_| {
                 _ = gate.recv();

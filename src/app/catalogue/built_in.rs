@@ -42,8 +42,7 @@ impl BuiltIn {
 
     /// Starts computing, while nothing else is computed: first the data of the selected product, then the
     /// representative states of the listed products, then the rest. After a stop it resumes when another product is
-    /// selected. It is cancelled by jobs that take long or much memory, and due again
-    /// afterwards.
+    /// selected. It is cancelled by jobs that take long or much memory, and due again afterwards.
     pub fn fill(&mut self, shell: &mut Shell) {
         if CANCELLING.iter().any(|lane| shell.jobs.busy(*lane)) && shell.jobs.cancel(Lane::Builtin) {
             self.due = true;
