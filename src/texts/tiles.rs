@@ -118,6 +118,7 @@ texts! {
     const VIEW = "View" | "Ansicht";
     const VIEW_AND_ABOUT = "Shows the view options and the help of this tile" | "Zeigt Ansicht und Hilfe dieser Kachel";
     fn about(title) = "About {title}" | "Über {title}";
+    const PICTURE_COMING = "Computing…" | "Wird berechnet…";
     const UPDATING = "updating…" | "wird aktualisiert…";
     const OUTDATED = "outdated" | "veraltet";
     const COARSE_FOR_NOW = "preliminary, refining" | "vorläufig, wird verfeinert";
@@ -239,7 +240,6 @@ texts! {
 
     // Room.
     const ROOM_ABOUT = "Illuminance on the work plane seen from above, façade at the left, with isolux lines; below it a section along the depth through the row of the cursor (click to keep a row), with lines at 300 and 500 lx and the band between the darkest and the brightest row. Apertures, work plane, calculation points and obstructions can be dragged (5 cm steps, with Shift 1 cm; or arrow keys; Delete removes an obstruction); obstructions beyond the picture are listed with their distance. Perspective: surfaces by illuminance, or by luminance as seen; patches of sun may exceed the scale. Daylight factor: of an overcast CIE sky.\nSource: direct component IEA SHC Task 31 report (2005), eq 17; interreflection by radiosity; 300 and 500 lx as in EN 17037." | "Beleuchtungsstärke auf der Nutzebene von oben, Fassade links, mit Isoluxlinien; darunter ein Schnitt in die Tiefe durch die Reihe unter dem Zeiger (Klick hält eine Reihe), mit Linien bei 300 und 500 lx und dem Band zwischen der dunkelsten und der hellsten Reihe. Öffnungen, Nutzebene, Berechnungspunkte und Verbauungen lassen sich ziehen (Schritte von 5 cm, mit Umschalt 1 cm; oder Pfeiltasten; Entf entfernt eine Verbauung); Verbauungen außerhalb des Bildes sind mit ihrer Entfernung aufgeführt. Perspektive: Flächen nach Beleuchtungsstärke oder nach gesehener Leuchtdichte; Sonnenflecke können über der Skala liegen. Tageslichtquotient: unter einem bedeckten CIE-Himmel.\nQuelle: direkter Anteil Bericht IEA SHC Task 31 (2005), Gl. 17; Interreflexion durch Radiosity; 300 und 500 lx nach EN 17037.";
-    const ROOM_COMPUTING = "Computing the illuminances…" | "Beleuchtungsstärken werden berechnet…";
     const ROOM_EMPTY = "No illuminances yet: select a product and set a work plane." | "Noch keine Beleuchtungsstärken: ein Produkt wählen und eine Nutzebene festlegen.";
     const PLAN = "Floor plan" | "Grundriss";
     const SECTION = "Section" | "Schnitt";

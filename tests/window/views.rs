@@ -389,6 +389,30 @@ fn tiles_without_data_say_what_is_missing() {
 }
 
 #[test]
+fn tiles_whose_first_result_is_being_computed_do_not_say_that_there_is_none() {
+    for (computed, doing, expected) in [
+        (false, None, ["No sky", "the scene has no aperture", "No illuminances yet"]),
+        (true, None, ["Computing…"; 3]),
+        (true, Some("reading the weather"), ["reading the weather"; 3]),
+    ] {
+        let status = Status { stale: true, idle: !computed, doing, ..FINE };
+        for (k, expected) in expected.into_iter().enumerate() {
+            let mut h = tile([400.0, 250.0], Theme::Light, |ui, bench| match k {
+                0 => _ = sky::show(ui, &sky::Input { luminance: None, status, ..sky_input() }, &mut bench.sky.0),
+                1 => {
+                    let (name, peaks, flux, max) = ("", None, None, None);
+                    let input = lid::Input { lid: None, name, peaks, flux, max, revision: 1, status };
+                    _ = lid::show(ui, &input, &mut bench.lid);
+                }
+                _ => _ = room::show(ui, &room::Input { status, ..room_input(&[], 8, 12) }, &mut bench.room),
+            });
+            h.run();
+            assert!(h.query_by_label_contains(expected).is_some(), "{k} {status:?}");
+        }
+    }
+}
+
+#[test]
 fn exports_hold_the_numbers() {
     let btdf = laser_cut();
     let text = btdf::csv(&btdf_input(&btdf, from(40.0, 90.0)));

@@ -119,11 +119,11 @@ fn one(
         return;
     }
     if column.state.dataset.value.is_none() {
-        ui.centered_and_justified(|ui| ui.label(missing(column)));
+        ui.with_layout(paint::tile::middle(), |ui| ui.label(missing(column)));
         return;
     }
     if TileKind::titled(tile.title) == Some(TileKind::Control) && column.state.product.is_none() {
-        ui.centered_and_justified(|ui| ui.label(texts::NOTHING_MOVES));
+        ui.with_layout(paint::tile::middle(), |ui| ui.label(texts::NOTHING_MOVES));
         return;
     }
     let Column { state, results, bench, .. } = column;

@@ -40,7 +40,7 @@ pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns) {
             },
             str::to_owned,
         );
-        ui.centered_and_justified(|ui| ui.label(words));
+        ui.with_layout(tile::middle(), |ui| ui.label(words));
         return;
     }
     let palette = Palette::of(ui.visuals());

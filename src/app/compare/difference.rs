@@ -4,7 +4,7 @@ use super::places::{kind, missing, places, short};
 use crate::app::compare::columns::{Column, Columns};
 use crate::app::display::theme;
 use crate::app::paint::hemisphere::Side;
-use crate::app::paint::tile::Status;
+use crate::app::paint::tile::{self, Status};
 use crate::app::state::State;
 use crate::app::views::difference::{self, Picture};
 use crate::compute::estimate::Estimate;
@@ -20,11 +20,11 @@ pub(super) fn show(ui: &mut Ui, state: &State, columns: &mut Columns) {
     let base = state.compare.base.min(names.len().saturating_sub(1));
     let drawn = kind(state).filter(|kind| [TileKind::Btdf, TileKind::Transmittance, TileKind::Room].contains(kind));
     let Some(kind) = drawn else {
-        ui.centered_and_justified(|ui| ui.label(texts::DIFFERENCES_OF));
+        ui.with_layout(tile::middle(), |ui| ui.label(texts::DIFFERENCES_OF));
         return;
     };
     if names.len() < 2 {
-        ui.centered_and_justified(|ui| ui.label(texts::TAKES_TWO));
+        ui.with_layout(tile::middle(), |ui| ui.label(texts::TAKES_TWO));
         return;
     }
     let key = (columns.key(tile), base, Vec::new());

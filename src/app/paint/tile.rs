@@ -23,6 +23,15 @@ pub struct Status<'a> {
 }
 
 impl<'a> Status<'a> {
+    /// Returns the text in the place of a picture that does not exist: that it is being computed, or else `empty`, the
+    /// reason why there is none.
+    pub fn missing(&self, empty: Text) -> &'a str {
+        match (self.stale, self.idle) {
+            (true, false) => self.doing.unwrap_or_else(|| say::PICTURE_COMING.get()),
+            _ => empty.get(),
+        }
+    }
+
     /// Returns the note on a picture that is outdated or preliminary; `None` for a final one.
     pub fn tag(&self) -> Option<&'a str> {
         match (self.stale, self.coarse, self.idle) {
@@ -250,10 +259,15 @@ fn head_ui(ui: &mut Ui, rect: Rect, words: &Words<'_>, status: &Status<'_>, cont
     .inner
 }
 
+/// Returns the layout of a text in the place of a picture: in its middle, without spreading the letters of full lines
+/// over their width, as egui's layout for something centred does.
+pub fn middle() -> Layout {
+    Layout::top_down(Align::Center).with_main_align(Align::Center).with_main_justify(true)
+}
+
 /// Draws text in the middle of a tile instead of its picture.
 fn notice(ui: &mut Ui, rect: Rect, text: &str, colour: Color32) {
-    let mut child =
-        ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::centered_and_justified(egui::Direction::TopDown)));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(rect).layout(middle()));
     child.add(egui::Label::new(RichText::new(text).size(SMALL).color(colour)).wrap());
 }
 

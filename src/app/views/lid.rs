@@ -63,7 +63,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: say::LID.get(),
         subtitle: input.name,
         help: say::LID_ABOUT.get(),
-        empty: input.lid.is_none().then_some(say::LID_EMPTY.get()),
+        empty: input.lid.is_none().then(|| input.status.missing(say::LID_EMPTY)),
         controls_width: 170.0,
     };
     let (mut per_area, mut solid, mut hold) = (state.per_area, state.solid, state.hold);

@@ -60,16 +60,12 @@ struct Shown {
 pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
     let (mut asked, mut moved) = (vec![], vec![]);
     let solid = input.look.view == RoomView::Perspective;
-    let missing = match (input.status.stale, input.status.idle) {
-        (true, false) => say::ROOM_COMPUTING.get(),
-        _ => say::ROOM_EMPTY.get(),
-    };
     let there = solid || input.complete() || !input.points.is_empty();
     let words = Words {
         title: say::ROOM.get(),
         subtitle: input.name,
         help: say::ROOM_ABOUT.get(),
-        empty: (!there).then_some(missing),
+        empty: (!there).then(|| input.status.missing(say::ROOM_EMPTY)),
         controls_width: 495.0,
     };
     let (mut log, mut hold, mut look) = (state.log, state.hold, input.look);

@@ -153,7 +153,7 @@ pub fn show(ui: &mut Ui, input: &Input<'_>, state: &mut State) -> Vec<Action> {
         title: say::SKY.get(),
         subtitle: input.name,
         help: say::SKY_ABOUT.get(),
-        empty: input.luminance.is_none().then_some(say::SKY_EMPTY.get()),
+        empty: input.luminance.is_none().then(|| input.status.missing(say::SKY_EMPTY)),
         controls_width: 104.0,
     };
     let (mut log, mut hold) = (state.log, state.hold);
