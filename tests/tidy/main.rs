@@ -430,7 +430,7 @@ fn data_of_others_are_named_with_their_licence() {
 
 /// Files of the window and its reports whose literals may have words, with the reason.
 const NO_WORDS: [(&str, &str); 18] = [
-    ("src/app/catalogue/states_in_progress.rs", "a stage, which `texts::stages` translates"),
+    ("src/app/catalogue/state_queue.rs", "a stage, which `texts::stages` translates"),
     ("src/app/command.rs", "the name of a field"),
     ("src/app/desktop.rs", "said on the terminal, where no window is"),
     ("src/app/display/language.rs", "languages by their own names"),

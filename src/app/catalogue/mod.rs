@@ -10,8 +10,8 @@ pub mod library;
 mod pictures;
 mod sets;
 pub mod shelf;
+pub mod state_queue;
 mod states;
-pub mod states_in_progress;
 
 use super::import::proposal::ImportFields;
 use super::shell::Shell;

@@ -3,7 +3,7 @@
 
 use crate::app::catalogue::library::WindowLibrary;
 use crate::app::catalogue::shelf::{Addition, Found, Query, Shelf};
-use crate::app::catalogue::states_in_progress::StatesInProgress;
+use crate::app::catalogue::state_queue::StateQueue;
 use crate::app::results::engine::{Engine, LidFigures, Question, RoomFigures, SurfaceFigures, subject};
 use crate::app::shell::error::AppError;
 use crate::catalogue::{
@@ -39,15 +39,15 @@ struct CatalogueShelf {
     /// Separate connection for data that are computed in the background, so that compressing and writing them does not
     /// block readers; `None` without such computations.
     filler: Option<Mutex<Catalogue>>,
-    /// States that are being computed because a request waits for them.
-    in_progress: StatesInProgress,
+    /// Queue of the requests for states that have to be computed first.
+    queue: StateQueue,
     /// States whose computation has failed; each is tried only once.
     failing: Mutex<Vec<StateKey>>,
 }
 
 impl CatalogueShelf {
     fn new(catalogue: Mutex<Catalogue>, filler: Option<Mutex<Catalogue>>) -> Self {
-        Self { catalogue, filler, in_progress: StatesInProgress::default(), failing: Mutex::default() }
+        Self { catalogue, filler, queue: StateQueue::default(), failing: Mutex::default() }
     }
 }
 
@@ -116,14 +116,14 @@ impl Shelf for CatalogueShelf {
     }
 
     fn provide(&self, product: &str, state: Option<&str>, progress: &dyn Progress) -> Result<(), AppError> {
-        let one = StateKey { product: product.to_owned(), state: self.state_or_own(product, state)? };
-        let is_there = || Ok(self.lock().to_compute(product, Some(&one.state))?.is_none());
+        let state = self.state_or_own(product, state)?;
+        let is_there = || Ok(self.lock().to_compute(product, Some(&state))?.is_none());
         let compute = || {
             let product = self.lock().product(product)?;
-            let dataset = builtin::compute(&product, &one.state, &Library::default(), progress)?;
+            let dataset = builtin::compute(&product, &state, &Library::default(), progress)?;
             Ok(self.lock().keep_state(&product, &dataset)?)
         };
-        self.in_progress.once(&one, progress, is_there, compute)
+        self.queue.once(progress, is_there, compute)
     }
 
     fn product(&self, product: &str) -> Result<Arc<Product>, AppError> {
@@ -159,7 +159,7 @@ impl Shelf for CatalogueShelf {
         // The first of equals stays first, as the catalogue has them.
         let Some(one) = waiting.iter().min_by_key(|one| place(one)) else { return Ok([0, all]) };
         progress.advance("computing", all.saturating_sub(waiting.len()), all);
-        // Not through `in_progress`: who waits for this state would wait for one who rests while somebody waits.
+        // Not through the queue: who waits in it would wait for a computation that pauses while somebody waits.
         let withdrawn = Withdrawn(progress);
         let product = lock(filler).product(&one.product)?;
         let dataset = builtin::compute(&product, &one.state, &Library::default(), &withdrawn).map_err(|error| {
