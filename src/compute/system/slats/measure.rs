@@ -105,26 +105,27 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         return Err(Cancelled);
     }
 
-    let scattered = |side: Side| {
+    // Here, not on the threads of the pool: memory that another thread frees goes back late.
+    let mut measured = Measured::dark(setting);
+    let scattered = |side: Side, seen: &mut OneSide| {
         let (from, own) = (&from[index(side)], &transport.incident[index(side)]);
         let other = &transport.incident[1 - index(side)];
         let mut sent = Mat::zeros(from.nrows(), from.ncols());
         // q = h M g/π, h and g in widths over the projected solid angles of their cells.
         matmul(&mut sent, Accum::Replace, &balance.response, from, std::f64::consts::FRAC_1_PI, Par::Seq);
-        let block = |rows: &[Vec<f64>], turned| {
+        let block = |q: &mut [f64], rows: &[Vec<f64>], turned| {
             let to = incident_widths(&emergent, setting.emergent, rows, turned);
-            let mut q = vec![0.0; to.ncols() * sent.ncols()];
-            let sum = MatMut::from_column_major_slice_mut(&mut q, to.ncols(), sent.ncols());
+            let sum = MatMut::from_column_major_slice_mut(q, to.ncols(), sent.ncols());
             matmul(sum, Accum::Replace, to.transpose(), &sent, 1.0, Par::Seq);
             // The extrapolation to endless strips may fall below 0 where nothing arrives.
             q.iter_mut().for_each(|q| *q = q.max(0.0));
-            q
         };
-        let (transmitted, reflected): (Vec<f64>, Vec<f64>) = rayon::join(|| block(other, false), || block(own, true));
-        OneSide { transmitted, reflected, absorbed: absorbed(&balance, from), error: uncertainties(&balance, from) }
+        let OneSide { transmitted, reflected, absorbed: taken, error } = seen;
+        rayon::join(|| block(transmitted, other, false), || block(reflected, own, true));
+        (*taken, *error) = (absorbed(&balance, from), uncertainties(&balance, from));
     };
-    let (front, back) = rayon::join(|| scattered(Side::Front), || scattered(Side::Back));
-    let mut measured = Measured { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back };
+    let Measured { front, back, .. } = &mut measured;
+    rayon::join(|| scattered(Side::Front, front), || scattered(Side::Back, back));
     progress.advance(STAGE, 3, 4);
     add_direct(array, setting, &mut measured);
     if transport.mirrored.iter().flatten().any(|mirrored| !(mirrored.through.is_empty() && mirrored.back.is_empty())) {
