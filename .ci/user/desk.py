@@ -190,7 +190,7 @@ class Desk:
 
     def quiet(self, wait=20.0):
         """Waits until nothing in sight is being computed."""
-        words = re.compile(r"updating|computing|coarse|preliminary|Opening the|Reading the|Computing the|being read|not computed")
+        words = re.compile(r"updating|computing|coarse|preliminary|Opening the|Reading the|Computing the|Computing…|being read|not computed")
 
         def settled():
             names = self.names()

@@ -49,7 +49,7 @@ def year(session):
 def rank(session):
     """a ranking of all products"""
     session.command("Maximise Ranking")
-    session.desk.press("^Rank ")
+    session.desk.click(session.desk.need("^Rank ", wait=60))
     session.finished()
     session.desk.key("0")
 

@@ -49,9 +49,10 @@ struct MirrorBeam {
     transmitted: bool,
 }
 
-/// Solved section: transport of light between faces, and their interreflection.
+/// Solved section: what single directions need of the transport of light, and the interreflection between faces.
 struct Solved {
-    transport: Transport,
+    /// See [`Transport::incident`].
+    incident: [Vec<Vec<f64>>; 2],
     balance: Balance,
 }
 
@@ -109,7 +110,7 @@ impl SlatModel {
                 Err(Cancelled) => unreachable!("nobody can cancel it"),
             };
             let balance = Balance::new(self.section(), &transport, &hat);
-            Solved { transport, balance }
+            Solved { incident: transport.incident, balance }
         })
     }
 
@@ -195,7 +196,7 @@ impl OpticalModel for SlatModel {
         let sent = self.sent(&node, psi, side);
         Some(ProfileLight {
             upright: false,
-            q: self.luminance(&self.solved().transport.incident[1 - index(side)], &sent),
+            q: self.luminance(&self.solved().incident[1 - index(side)], &sent),
             error: self.uncertainty(&node, psi, side),
         })
     }
@@ -324,7 +325,7 @@ impl SlatModel {
             };
             emergent.projected_solid_angles().into_iter().enumerate().map(of).collect()
         };
-        let incident = &self.solved().transport.incident;
+        let incident = &self.solved().incident;
         ScatteredLight {
             transmitted: by_cell(&incident[1 - index(side)], false),
             reflected: if back { by_cell(&incident[index(side)], true) } else { vec![] },
@@ -408,7 +409,7 @@ mod tests {
         let section = specimen.section();
         let landed = |psi: f64, side: Side| beam(section, psi, side, SEED).incident[index(side)].clone();
         let grid = ProfileGrid::new(STEP);
-        let all = &specimen.solved().transport.incident;
+        let all = &specimen.solved().incident;
         for node in (5..grid.len() - 5).step_by(17) {
             for side in Side::BOTH {
                 let own = landed(grid.psi(node), side);
