@@ -65,7 +65,7 @@ class Session:
 
     def finished(self):
         """Waits until the year or the ranking is complete."""
-        if self.desk.until(lambda: self.desk.find("^Stop$", wait=0.2) is None, 1200) is None:
+        if self.desk.until(lambda: self.desk.find("^Stop$", wait=3) is None, 1200) is None:
             raise AssertionError("not complete within 20 minutes")
         self.dismiss()
         self.settle()

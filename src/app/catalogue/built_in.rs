@@ -16,7 +16,7 @@ const MOST_FAILURES: usize = 5;
 const FILLING: Duration = Duration::from_millis(500);
 
 /// Lanes whose jobs may take minutes, or as much memory as a computation in advance: paused, that would hold its memory,
-/// up to 200 MB, all that time.
+/// up to 100 MB, all that time.
 const CANCELLING: [Lane; 6] =
     [Lane::Annual, Lane::Rank, Lane::Compare, Lane::Accuracy, Lane::Goniophotometer, Lane::Product];
 

@@ -1,5 +1,5 @@
 //! Queue of the threads that need data of product states that are not computed yet: one state is computed at a time,
-//! which needs up to 150 MB and all cores.
+//! which needs up to 100 MB and all cores.
 
 use crate::app::shell::error::AppError;
 use crate::compute::estimate::{Cancelled, Progress};
