@@ -33,8 +33,9 @@ const REST: Duration = Duration::from_secs(30);
 /// run that need much memory themselves ([`LARGE`]).
 const PART: usize = 4;
 /// Lanes of jobs that need much memory: a ranking of all built-in products takes no longer with 64 MB than with 1 GB of
-/// stored results, and data that are computed from an optical model take up to 100 MB for some seconds.
-const LARGE: [Lane; 4] = [Lane::Rank, Lane::Product, Lane::Builtin, Lane::Goniophotometer];
+/// stored results, an annual simulation has tables of its own, and data that are computed from an optical model take up to
+/// 100 MB for some seconds.
+const LARGE: [Lane; 5] = [Lane::Rank, Lane::Annual, Lane::Product, Lane::Builtin, Lane::Goniophotometer];
 
 impl App {
     /// Creates a window, without drawing it.

@@ -6,7 +6,7 @@
 
 use super::beam_responses::{BeamResponses, ReflectedBeamLight};
 use super::interreflected::{DIFFERENCE_ALONE, UNEVEN, mesh_key, room_key};
-use super::room_side_reflection::RoomSideReflection;
+use super::room_side_reflection::{AddedAt, RoomSideReflection};
 use super::seen::within_budget;
 use super::through_room::ThroughRoom;
 use super::unit_beams::UnitBeams;
@@ -165,14 +165,14 @@ impl Responses {
     ) -> Vec<Vec<Reflected>> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of_cells(session, &self.room, index, basis));
         let sensor = |room: &ByCells, share: f64, s: usize| {
-            let added = mirrored.as_ref().map(|all| &all[s]);
             let cell = |c: usize| {
-                let value = room.value[s][c] + added.map_or(0.0, |added| share * added.value[c]);
+                let added = mirrored.as_ref().map(|all| all.at(s, c));
+                let value = room.value[s][c] + added.map_or(0.0, |added| share * added.value());
                 let gap = |(w, wall): (usize, &Vec<f32>)| {
-                    f64::from(wall[c]) + added.map_or(0.0, |added| share * added.walls[w][c])
+                    f64::from(wall[c]) + added.map_or(0.0, |added| share * added.wall(w))
                 };
                 let squares: f64 = room.walls[s].iter().enumerate().map(gap).map(|x| x * x).sum();
-                let room_side_reflection = added.map_or(0.0, |added| share * added.straight[c]);
+                let room_side_reflection = added.map_or(0.0, |added| share * added.straight());
                 Reflected { value, difference: squares.sqrt(), room_side_reflection }
             };
             (0..basis.len()).map(cell).collect()
@@ -193,15 +193,11 @@ impl Responses {
     pub fn of(&self, first: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(first));
         let one = |(s, sensor): (usize, &Response)| {
-            let added = mirrored.as_ref().map(|all| &all[s]);
-            let value = dot(&sensor.value, first) + added.map_or(0.0, |added| added.value);
-            let gap = |(w, wall): (usize, &Vec<f32>)| dot(wall, first) + added.map_or(0.0, |added| added.walls[w]);
+            let added = mirrored.as_ref().map(|all| all.at(s, 0));
+            let value = dot(&sensor.value, first) + added.map_or(0.0, AddedAt::value);
+            let gap = |(w, wall): (usize, &Vec<f32>)| dot(wall, first) + added.map_or(0.0, |added| added.wall(w));
             let squares: f64 = sensor.walls.iter().enumerate().map(gap).map(|x| x * x).sum();
-            Reflected {
-                value,
-                difference: squares.sqrt(),
-                room_side_reflection: added.map_or(0.0, |added| added.straight),
-            }
+            Reflected { value, difference: squares.sqrt(), room_side_reflection: added.map_or(0.0, AddedAt::straight) }
         };
         self.room.sensors.iter().enumerate().map(one).collect()
     }
@@ -211,12 +207,12 @@ impl Responses {
     pub fn of_beams(&self, sums: &ReflectedBeamLight, direct: &[f64]) -> Vec<Reflected> {
         let mirrored = self.mirrors.as_ref().map(|mirrors| mirrors.of(direct));
         let one = |s: usize| {
-            let added = mirrored.as_ref().map(|all| &all[s]);
-            let value = sums.values[s] + added.map_or(0.0, |added| added.value);
-            let gap = |(w, wall): (usize, f64)| wall + added.map_or(0.0, |added| added.walls[w]);
+            let added = mirrored.as_ref().map(|all| all.at(s, 0));
+            let value = sums.values[s] + added.map_or(0.0, AddedAt::value);
+            let gap = |(w, wall): (usize, f64)| wall + added.map_or(0.0, |added| added.wall(w));
             let squares: f64 = sums.walls(s).enumerate().map(gap).map(|x| x * x).sum();
             let difference = (squares + sums.blur[s].powi(2)).sqrt();
-            Reflected { value, difference, room_side_reflection: added.map_or(0.0, |added| added.straight) }
+            Reflected { value, difference, room_side_reflection: added.map_or(0.0, AddedAt::straight) }
         };
         (0..self.room.sensors.len()).map(one).collect()
     }

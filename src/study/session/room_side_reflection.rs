@@ -44,14 +44,40 @@ struct Rows {
     walls: Vec<usize>,
 }
 
-/// Light that reaches a sensor after reflection by apertures: by emergent cell, or for one light.
-pub(super) struct Added<T> {
-    /// Illuminance, or illuminance per luminance, by all light that apertures reflect.
-    pub value: T,
-    /// Contribution to `value` that comes directly from the apertures.
-    pub straight: T,
-    /// Differences between the fine and the coarse mesh, wall by wall.
-    pub walls: Vec<T>,
+/// Light that reaches the sensors after reflection by apertures, for several lights.
+pub(super) struct Added<'a> {
+    rows: &'a Rows,
+    /// Illuminances, or illuminances per luminance, in the rows of [`Rows`], light by light.
+    values: Mat<f32>,
+}
+
+/// Light that reaches one sensor after reflection by apertures, for one light.
+#[derive(Clone, Copy)]
+pub(super) struct AddedAt<'a>(&'a [f32]);
+
+impl Added<'_> {
+    /// Returns the light at a sensor for the light of an index.
+    pub fn at(&self, sensor: usize, light: usize) -> AddedAt<'_> {
+        let Rows { first, walls } = self.rows;
+        AddedAt(&self.values.col_as_slice(light)[first[sensor]..][..2 + walls[sensor]])
+    }
+}
+
+impl AddedAt<'_> {
+    /// Returns the illuminance, or illuminance per luminance, by all light that apertures reflect.
+    pub fn value(self) -> f64 {
+        self.0[0].into()
+    }
+
+    /// Returns the contribution to the value that comes directly from the apertures.
+    pub fn straight(self) -> f64 {
+        self.0[1].into()
+    }
+
+    /// Returns the difference between the fine and the coarse mesh by the light of a wall.
+    pub fn wall(self, wall: usize) -> f64 {
+        self.0[2 + wall].into()
+    }
 }
 
 impl RoomSideReflection {
@@ -121,43 +147,31 @@ impl RoomSideReflection {
         Ok(Some(Self { sides, settled, seen, rows }))
     }
 
-    /// Returns the illuminance after reflection by apertures per luminance of each cell of an aperture, sensor by
-    /// sensor.
+    /// Returns the illuminance after reflection by apertures per luminance of each cell of an aperture.
     pub fn of_cells(
         &self,
         session: &Session,
         responses: &ThroughRoom,
         index: usize,
         basis: &Arc<RingBasis>,
-    ) -> Vec<Added<Vec<f64>>> {
+    ) -> Added<'_> {
         let falling: Vec<_> = self.sides.iter().map(|side| session.falling_in(responses, side, index, basis)).collect();
         let rows: Vec<&Vec<f64>> = falling.iter().flat_map(|rows| rows.iter()).collect();
-        let all = self.reflected(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell] as f32));
-        self.added(|row| (0..basis.len()).map(|cell| f64::from(all[(row, cell)])).collect())
+        self.reflected(&Mat::from_fn(rows.len(), basis.len(), |i, cell| rows[i][cell] as f32))
     }
 
-    /// Returns the illuminance after reflection by apertures, sensor by sensor. `first`: illuminances of the patches of
-    /// the room before interreflection. \[lx\]
-    pub fn of(&self, first: &[f64]) -> Vec<Added<f64>> {
+    /// Returns the illuminance after reflection by apertures of one light. `first`: illuminances of the patches of the
+    /// room before interreflection. \[lx\]
+    pub fn of(&self, first: &[f64]) -> Added<'_> {
         let incident: Vec<f64> = self.sides.iter().flat_map(|side| side.room.incident(first)).collect();
-        let all = self.reflected(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32));
-        self.added(|row| f64::from(all[(row, 0)]))
+        self.reflected(&Mat::from_fn(incident.len(), 1, |i, _| incident[i] as f32))
     }
 
-    /// Computes the rows of all sensors from the illuminances of the reflecting cells.
-    fn reflected(&self, incident: &Mat<f32>) -> Mat<f32> {
+    /// Computes the light at all sensors from the illuminances of the reflecting cells, light by light.
+    fn reflected(&self, incident: &Mat<f32>) -> Added<'_> {
         // One thread: the result must not depend on their number.
         faer::set_global_parallelism(faer::Par::Seq);
-        &self.seen * (&self.settled * incident)
-    }
-
-    fn added<T>(&self, row: impl Fn(usize) -> T) -> Vec<Added<T>> {
-        let of = |(&first, &walls): (&usize, &usize)| Added {
-            value: row(first),
-            straight: row(first + 1),
-            walls: (0..walls).map(|w| row(first + 2 + w)).collect(),
-        };
-        self.rows.first.iter().zip(&self.rows.walls).map(of).collect()
+        Added { rows: &self.rows, values: &self.seen * (&self.settled * incident) }
     }
 }
 

@@ -12,6 +12,7 @@ use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::system::measure::Side;
 use rayon::prelude::*;
 use std::rc::Rc;
+use std::sync::{Mutex, PoisonError};
 
 /// Contribution of consecutive nodes of the profile angle to the transport.
 struct Chunk {
@@ -162,8 +163,12 @@ impl Transport {
             rough: None,
         };
         let mut second = Second { exchange: Exchange::new(size), incident: [vec![], vec![]] };
+        // Large matrices from the system cost more time than emptying those of the chunks before.
+        let empty: Mutex<Vec<[Exchange; 2]>> = Mutex::default();
+        let kept = || empty.lock().unwrap_or_else(PoisonError::into_inner);
         let chunk = |chunk: &[usize]| {
-            let exchange = [Exchange::new(size), Exchange::new(size)];
+            let exchange = kept().pop();
+            let exchange = exchange.unwrap_or_else(|| [Exchange::new(size), Exchange::new(size)]);
             let mut part = Chunk { exchange, length: vec![0.0; size], nodes: vec![] };
             for &node in chunk {
                 let tracer = Tracer::new(section, grid.psi(node), 0.5 * grid.hat(node));
@@ -175,9 +180,11 @@ impl Transport {
         // A few chunks for every thread at a time, added in their order: their matrices are large, and the sum is the
         // same however many threads there are.
         let together = CHUNK * 4 * rayon::current_num_threads();
-        let mut added = |part: Chunk| {
+        let mut added = |mut part: Chunk| {
             all.exchange.add_all(&part.exchange[0]);
             second.exchange.add_all(&part.exchange[1]);
+            part.exchange.iter_mut().for_each(|exchange| exchange.values.fill(0.0));
+            kept().push(part.exchange);
             all.length.iter_mut().zip(&part.length).for_each(|(sum, x)| *sum += x);
             for node in part.nodes {
                 for (side, (incident, more)) in node.incident.into_iter().zip(node.second).enumerate() {
