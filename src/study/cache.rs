@@ -1,7 +1,7 @@
 //! Store of results for later computations: found by exact keys, within one limit of memory. What takes the least time to
-//! compute again for its memory, and was not used for the longest time, goes first (GreedyDual-Size: Cao and Irani, Cost-aware
-//! WWW proxy caching algorithms, USENIX Symposium on Internet Technologies and Systems 1997). Results in use stay: without
-//! them in the store their memory would be the same, and the next computation would compute them again.
+//! compute again for its memory, and was not used for the longest time, goes first (GreedyDual-Size: Cao and Irani,
+//! Cost-aware WWW proxy caching algorithms, USENIX Symposium on Internet Technologies and Systems 1997). Results in use
+//! stay: without them in the store their memory would be the same, and the next computation would compute them again.
 
 use std::any::Any;
 use std::collections::HashMap;
@@ -31,8 +31,8 @@ struct Stored {
     caches: usize,
     /// Results by the number of their cache and by key.
     results: HashMap<(usize, Key), Entry>,
-    /// Greatest worth of the removed results; what is used from then on is worth more. \[s/byte\]
-    removed_worth: f64,
+    /// Greatest score of the removed results; what is used from then on has a higher one. \[s/byte\]
+    removed_score: f64,
 }
 
 /// Result in a store.
@@ -40,10 +40,11 @@ struct Entry {
     value: Arc<dyn Any + Send + Sync>,
     /// Memory. \[bytes\]
     bytes: usize,
-    /// Time of its computation per memory, including that of results which it needed and which were not stored. \[s/byte\]
+    /// Time of its computation per memory, including that of results that it needed and that were not stored.
+    /// \[s/byte\]
     cost: f64,
-    /// Its cost, and the worth of what had been removed when it was last used. \[s/byte\]
-    worth: f64,
+    /// Sum of the cost and of the score of what had been removed when it was last used. \[s/byte\]
+    score: f64,
 }
 
 impl Entry {
@@ -56,7 +57,7 @@ impl Entry {
 impl Store {
     /// Creates an empty store whose results take at most `limit` bytes, or more while computations use large ones.
     pub fn new(limit: usize) -> Self {
-        Self(Mutex::new(Stored { limit, bytes: 0, caches: 0, results: HashMap::new(), removed_worth: 0.0 }))
+        Self(Mutex::new(Stored { limit, bytes: 0, caches: 0, results: HashMap::new(), removed_score: 0.0 }))
     }
 
     // What is stored is whole even if another thread has failed while it held the lock.
@@ -99,12 +100,12 @@ impl Stored {
     /// Returns a stored result, which is used from now on.
     fn find(&mut self, place: &(usize, Key)) -> Option<Arc<dyn Any + Send + Sync>> {
         let entry = self.results.get_mut(place)?;
-        entry.worth = self.removed_worth + entry.cost;
+        entry.score = self.removed_score + entry.cost;
         Some(Arc::clone(&entry.value))
     }
 
-    /// Removes those of the results not in use that are worth least, until all results are within the limit or those take
-    /// at most a part of it ([`BESIDE`]); returns the removed ones.
+    /// Removes those of the results not in use that have the lowest scores, until all results are within the limit or
+    /// those take at most a part of it ([`BESIDE`]); returns the removed ones.
     fn within_limit(&mut self) -> Vec<Entry> {
         let mut removed = Vec::new();
         if self.bytes <= self.limit {
@@ -115,10 +116,10 @@ impl Stored {
         while self.bytes > most {
             // Nobody can begin to use a result while the store is locked.
             let unused = self.results.iter().filter(|(_, entry)| entry.bytes_in_use() == 0);
-            let least = unused.min_by(|(_, a), (_, b)| a.worth.total_cmp(&b.worth));
+            let least = unused.min_by(|(_, a), (_, b)| a.score.total_cmp(&b.score));
             let Some(place) = least.map(|(place, _)| place.clone()) else { break };
             let Some(entry) = self.results.remove(&place) else { break };
-            self.removed_worth = self.removed_worth.max(entry.worth);
+            self.removed_score = self.removed_score.max(entry.score);
             self.bytes -= entry.bytes;
             removed.push(entry);
         }
@@ -169,8 +170,8 @@ impl<T: Send + Sync + 'static> Cache<T> {
         if let Some(value) = stored.find(&place) {
             return of_kind(value);
         }
-        let worth = stored.removed_worth + cost;
-        stored.results.insert(place, Entry { value: Arc::clone(&value) as _, bytes, cost, worth });
+        let score = stored.removed_score + cost;
+        stored.results.insert(place, Entry { value: Arc::clone(&value) as _, bytes, cost, score });
         stored.bytes += bytes;
         let removed = stored.within_limit();
         // Freed without holding the lock.
@@ -255,7 +256,7 @@ mod tests {
             let store = Arc::new(Store::new(1000));
             let [even, odd] = [(); 2].map(|()| Cache::new(&store, |value: &usize| *value));
             keep(&even, 400, 2.5);
-            // Each is worth one more than what was removed before it: 1, 1, 2, 2, 3, 3, …
+            // Scores are one above that of what was removed before: 1, 1, 2, 2, 3, 3, …
             let stays = [501, 503, 505, 507, 509, 511, 513, 515].map(|size| {
                 keep(&odd, size, 1.0);
                 if used {
