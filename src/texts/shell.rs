@@ -40,7 +40,7 @@ texts! {
     const STORED_RESULTS_HELP = "Results that later computations can use are stored, so that these are faster. Those that take the least time to compute again for their memory are removed first, the longer not used the sooner, and all but a quarter of the maximum during a ranking or an annual simulation, while data of a product are computed, or when nothing has been computed for half a minute. What a computation is using stays, even beyond the maximum. No result depends on what is stored." | "Ergebnisse, die spätere Berechnungen brauchen können, werden gespeichert; diese gehen dann schneller. Zuerst werden die entfernt, die gemessen an ihrem Speicher am schnellsten wieder berechnet sind, je länger nicht benutzt, desto eher, und alle bis auf ein Viertel des Höchstwerts, während eine Rangfolge, eine Jahressimulation oder Daten eines Produkts berechnet werden oder wenn eine halbe Minute lang nichts berechnet wurde. Was eine Berechnung benutzt, bleibt, auch über den Höchstwert hinaus. Kein Ergebnis hängt davon ab, was gespeichert ist.";
     const STORE_IN_USE = "In use" | "Belegt";
     const STORE_LIMIT = "Maximum" | "Höchstens";
-    const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up years and large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt Jahre und große Räume";
+    const STORE_LIMIT_TIP = "Maximum memory of the stored results; more speeds up large rooms" | "Höchster Speicherbedarf der gespeicherten Ergebnisse; mehr beschleunigt große Räume";
     const ACCURACY = "Accuracy" | "Genauigkeit";
     const GONIOPHOTOMETER = "Goniophotometer" | "Goniophotometer";
     const PRODUCT = "Product" | "Produkt";
