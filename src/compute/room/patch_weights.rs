@@ -19,8 +19,12 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 pub struct PatchWeights {
     /// Basis of the emergent cells.
     pub basis: Arc<RingBasis>,
-    /// Weights by cell for every patch; empty for patches that do not see the aperture's room side.
-    rows: Vec<Vec<f64>>,
+    /// Number of patches of the room.
+    patches: usize,
+    /// Patches that see the aperture's room side, in rising order.
+    seeing: Vec<usize>,
+    /// Weights by cell of every patch in `seeing`, patch after patch.
+    weights: Vec<f64>,
     /// Flux that the room's patches receive from each cell, relative to the flux that leaves the aperture into the
     /// cell. Illuminances are divided by it so that the flux is exact; its deviation from 1 shows the error of the
     /// points on the patches.
@@ -68,7 +72,12 @@ pub(super) fn rules(most: usize) -> Vec<Vec<(f64, f64)>> {
 impl PatchWeights {
     /// Returns the memory that its weights take. \[bytes\]
     pub fn bytes(&self) -> usize {
-        self.rows.iter().map(|row| size_of_val(&row[..])).sum()
+        size_of_val(&self.weights[..])
+    }
+
+    /// Returns the patches that see the aperture's room side, each with its weights by cell.
+    fn rows(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        self.seeing.iter().copied().zip(self.weights.chunks_exact(self.basis.len()))
     }
 
     /// Computes the weights for an aperture and the emergent cells of a basis, for all patches that see the aperture's
@@ -96,20 +105,27 @@ impl PatchWeights {
                 row
             })
             .collect();
-        Self::closed(mesh, aperture.area(), basis, rows)
+        Self::closed(mesh, aperture.area(), basis, rows.into_iter())
     }
 
-    /// Creates the weights from rows by patch and computes the ratio of received and emitted flux; `area`: area of the
-    /// aperture that emits. \[m²\]
-    fn closed(mesh: &Mesh, area: f64, basis: Arc<RingBasis>, rows: Vec<Vec<f64>>) -> Self {
+    /// Creates the weights from a row for each patch, which is empty if the patch does not see the aperture's room
+    /// side, and computes the ratio of received and emitted flux; `area`: area of the aperture that emits. \[m²\]
+    fn closed(mesh: &Mesh, area: f64, basis: Arc<RingBasis>, rows: impl Iterator<Item = impl AsRef<[f64]>>) -> Self {
         let mut received = vec![0.0; basis.len()];
-        for (row, patch) in rows.iter().zip(&mesh.patches) {
+        let (mut seeing, mut weights) = (Vec::new(), Vec::new());
+        for (index, (row, patch)) in rows.zip(&mesh.patches).enumerate() {
+            let row = row.as_ref();
+            if !row.is_empty() {
+                seeing.push(index);
+                weights.extend_from_slice(row);
+            }
             for (sum, weight) in received.iter_mut().zip(row) {
                 *sum += patch.area * weight;
             }
         }
+        weights.shrink_to_fit();
         let closure = basis.cells().zip(&received).map(|(cell, r)| r / (area * cell.projected_solid_angle())).collect();
-        Self { basis, rows, closure, received }
+        Self { basis, patches: mesh.patches.len(), seeing, weights, closure, received }
     }
 
     /// Computes weights for luminances that vary over the aperture, one set for each node: for a luminance that is 1 at
@@ -140,7 +156,7 @@ impl PatchWeights {
         };
         let by_patch: Vec<Vec<Vec<f64>>> = mesh.patches.par_iter().map(of).collect();
         let of_node = |(node, part): (usize, f64)| {
-            let rows = by_patch.iter().map(|rows| rows[node].clone()).collect();
+            let rows = by_patch.iter().map(|rows| &rows[node]);
             Self::closed(mesh, part * aperture.area(), Arc::clone(basis), rows)
         };
         nodes.parts().into_iter().enumerate().map(of_node).collect()
@@ -151,7 +167,7 @@ impl PatchWeights {
     pub fn illuminance(&self, luminance: &[f64]) -> (Vec<f64>, f64) {
         let received = dot(&self.received, luminance);
         if received <= 0.0 {
-            return (vec![0.0; self.rows.len()], 0.0);
+            return (vec![0.0; self.patches], 0.0);
         }
         let left: f64 = self
             .received
@@ -161,17 +177,16 @@ impl PatchWeights {
             .map(|((r, c), l)| if *c > 0.0 { r / c * l } else { 0.0 })
             .sum();
         let scale = left / received;
-        let first = self.rows.iter().map(|row| if row.is_empty() { 0.0 } else { scale * dot(row, luminance) });
-        (first.collect(), (scale - 1.0).abs())
+        let mut first = vec![0.0; self.patches];
+        self.rows().for_each(|(patch, row)| first[patch] = scale * dot(row, luminance));
+        (first, (scale - 1.0).abs())
     }
 
     /// Returns, for each list of weights of the patches' illuminances, the weights of the cells' luminances that give
     /// the same sum; the flux of every cell is scaled to be exact separately.
     pub fn gathered(&self, weights: &[&[f64]]) -> Vec<Vec<f64>> {
-        let seeing: Vec<usize> = (0..self.rows.len()).filter(|&k| !self.rows[k].is_empty()).collect();
-        let rows: Vec<f64> = seeing.iter().flat_map(|&k| &self.rows[k]).copied().collect();
-        let by_patch = MatRef::from_column_major_slice(&rows, self.basis.len(), seeing.len());
-        let weights = Mat::from_fn(seeing.len(), weights.len(), |row, list| weights[list][seeing[row]]);
+        let by_patch = MatRef::from_column_major_slice(&self.weights, self.basis.len(), self.seeing.len());
+        let weights = Mat::from_fn(self.seeing.len(), weights.len(), |row, list| weights[list][self.seeing[row]]);
         let mut sums = Mat::zeros(self.basis.len(), weights.ncols());
         // One thread, because the result must not depend on the number of threads.
         matmul(sums.as_mut(), Accum::Replace, by_patch, weights.as_ref(), 1.0, Par::Seq);
@@ -191,14 +206,14 @@ impl PatchWeights {
     /// from this cell, the factors of [`Self::falling_back`].
     pub fn falling(&self, mesh: &Mesh, aperture: &Aperture) -> Vec<Vec<f64>> {
         let scale = 1.0 / (PI * aperture.area());
-        let share = |cell: usize, row: &Vec<f64>, patch: &Patch| {
-            let closure = self.closure[cell];
-            if row.is_empty() || closure <= 0.0 { 0.0 } else { patch.area * scale * row[cell] / closure }
+        let of_cell = |(cell, &closure): (usize, &f64)| {
+            let mut shares = vec![0.0; self.patches];
+            if closure > 0.0 {
+                self.rows().for_each(|(k, row)| shares[k] = mesh.patches[k].area * scale * row[cell] / closure);
+            }
+            shares
         };
-        (0..self.basis.len())
-            .into_par_iter()
-            .map(|cell| self.rows.iter().zip(&mesh.patches).map(|(row, patch)| share(cell, row, patch)).collect())
-            .collect()
+        self.closure.par_iter().enumerate().map(of_cell).collect()
     }
 
     /// Computes the mean illuminance of the aperture's room side by the patches, by cell of the direction that the
@@ -206,8 +221,8 @@ impl PatchWeights {
     /// façade frame, in which the light travels.
     pub fn falling_back(&self, mesh: &Mesh, aperture: &Aperture, exitance: &[f64]) -> Vec<f64> {
         let mut incident = vec![0.0; self.basis.len()];
-        for ((row, patch), b) in self.rows.iter().zip(&mesh.patches).zip(exitance) {
-            let flux = patch.area * b;
+        for (patch, row) in self.rows() {
+            let flux = mesh.patches[patch].area * exitance[patch];
             if flux > 0.0 {
                 incident.iter_mut().zip(row).for_each(|(sum, weight)| *sum += flux * weight);
             }

@@ -215,7 +215,7 @@ impl Coefficients {
                         column.difference.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
                     uncertainty.hypot(self.rest() * reflected)
                         + simpler.abs()
-                        + part.transport.relative_error() * own[s]
+                        + part.relative_error * own[s]
                 });
                 let reflected = column.as_ref().map_or(0.0, |column| column.light[sensors + s] * illuminance);
                 *sum += of_part(Estimate::new(own[s], error), reflected, shares.map(|shares| shares[s]));

@@ -6,8 +6,8 @@
 //! enough.
 
 use super::by_node::{ByNode, seen_by_nodes};
+use super::columns::Columns;
 use super::sent::{Luminances, Patch, Sent, lit as lit_cells};
-use super::transport::Column;
 use super::views::Opening;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::AngularTransmittance;
@@ -104,7 +104,7 @@ impl Behind {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// Prepares an aperture. `columns`: interreflected light of every incident patch, node by node; `sent`: scattered
+    /// Prepares an aperture. `columns`: interreflected light of every incident patch, node by node, if there is any; `sent`: scattered
     /// light of the system by incident patch; `regular`: its regular transmittance; `direct`: cache of direct light by
     /// aperture, shared by all meshes of the room.
     ///
@@ -114,7 +114,7 @@ impl Behind {
         &self,
         opening: &Opening<'_>,
         nodes: Nodes,
-        (patches, columns): (&RingBasis, &[Column]),
+        (patches, columns): (&RingBasis, Option<&Columns<'_>>),
         sent: Option<Sent>,
         regular: Option<&AngularTransmittance>,
         direct: &Cache<Mat<f32>>,
@@ -126,13 +126,11 @@ impl Behind {
         let cells = sent.as_ref().map_or(0, Sent::count);
         within_budget(scene, 3 * size_of::<f32>() * self.prepared.count() + CELL_SEEN * cells)?;
         let by_luminance = || seen_by_nodes(&self.prepared, (&grid, &nodes), patches.len(), &by_point);
-        let by_luminance = if columns.is_empty() {
-            Arc::default()
-        } else {
+        let by_luminance = columns.map(|_| {
             let eyes = eyes(scene, grid.places());
             opening.session.seen_patches((&self.prepared, nodes.count() as u64), &eyes, patches, by_luminance)
-        };
-        let reflected = ByNode::new(opening, &nodes, columns, by_luminance);
+        });
+        let reflected = ByNode::new(opening, &nodes, columns, by_luminance.unwrap_or_default());
         let inside: Vec<Sensor> = scene.sensors.iter().map(|sensor| inside(scene, sensor)).collect();
         let [cells, bands] = sent.as_ref().map(|sent| cells_seen(opening, &grid, sent, &inside)).unwrap_or_default();
         let kept = keeps(scene, patches.len() * grid.count() * size_of::<f32>() / size_of::<f64>());

@@ -5,6 +5,7 @@
 //! first: it does not depend on the system, so that a year needs it once for all systems on the same patches. For many
 //! patches N·W is.
 
+use super::columns::Columns;
 use super::transport::Column;
 use super::views::Opening;
 use crate::compute::dot::wide;
@@ -34,17 +35,27 @@ pub(super) struct ByNode {
 }
 
 impl ByNode {
-    /// Creates the light from the illuminances at the sensors by incident patch, node by node (`columns`), and the
-    /// weights `seen` of luminances at the nodes.
-    pub fn new(opening: &Opening<'_>, nodes: &Nodes, columns: &[Column], seen: Arc<Vec<Vec<Counts>>>) -> Self {
-        let (sensors, patches) = (opening.scene.sensors.len(), columns.len());
+    /// Creates the light from the illuminances at the sensors by incident patch, node by node (`columns`; `None` without
+    /// interreflection), and the weights `seen` of luminances at the nodes.
+    pub fn new(
+        opening: &Opening<'_>,
+        nodes: &Nodes,
+        columns: Option<&Columns<'_>>,
+        seen: Arc<Vec<Vec<Counts>>>,
+    ) -> Self {
+        let (sensors, patches) = (opening.scene.sensors.len(), columns.map_or(0, Columns::count));
         let places = sensors * nodes.count();
         let mut entering: Mat<f32> = Mat::zeros(2 * sensors, nodes.count() * patches);
-        for (place, to) in entering.col_iter_mut().enumerate() {
-            let (node, column) = (place / patches, &columns[place % patches]);
-            // All light is the same as interreflected light.
-            let rows = column.light.chunks_exact(places).skip(1).flat_map(|row| &row[node * sensors..][..sensors]);
-            to.iter_mut().zip(rows).for_each(|(to, e): (&mut f32, &f64)| *to = *e as f32);
+        let put = |patch: usize, column: &Column| {
+            for node in 0..nodes.count() {
+                // All light is the same as interreflected light.
+                let rows = column.light.chunks_exact(places).skip(1).flat_map(|row| &row[node * sensors..][..sensors]);
+                let to = entering.col_as_slice_mut(node * patches + patch);
+                to.iter_mut().zip(rows).for_each(|(to, e): (&mut f32, &f64)| *to = *e as f32);
+            }
+        };
+        if let Some(columns) = columns {
+            columns.each(put);
         }
         let mut own = Self { patches, seen, entering, by_luminance: None };
         if FEW * own.entering.ncols() > own.seen.len() {

@@ -1,6 +1,7 @@
 //! Illuminance at the sensors behind a described system: sky and ground by incident patches, the sun by its actual
 //! direction.
 
+use super::transport::Column;
 use super::views::{Opening, SensorRows, Views, Want};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
@@ -17,19 +18,23 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub(super) struct Described {
     /// Basis of the incident hemisphere.
     pub basis: Arc<RingBasis>,
-    /// Illuminances at the sensors per illuminance of the aperture through each patch.
-    pub columns: Vec<SensorRows>,
     /// Relative error of all these illuminances.
     pub error: f64,
     /// Scattered light by profile angle, for a system whose scattering depends on that angle alone.
     pub by_angle: Option<Arc<ByAngle>>,
+    /// Responses of the sensors to the light of the system.
+    pub views: Arc<DescribedViews>,
+    /// Emergent light by incident patch, per illuminance through the patch.
+    patches: Vec<PatchLight>,
+    /// Illuminances at the sensors by each row of scattered light.
+    rows: Arc<Vec<SensorRows>>,
 }
 
 /// Illuminance at the sensors by scattered light per 1 lx on the aperture, for a list of profile angles of the incident
 /// light.
 pub(super) struct ByAngle {
     upright: bool,
-    rows: Vec<SensorRows>,
+    rows: Arc<Vec<SensorRows>>,
     /// Relative error of the illuminances for each profile angle.
     errors: Vec<f64>,
 }
@@ -210,9 +215,9 @@ impl DescribedViews {
 }
 
 impl Described {
-    /// Computes the illuminances at the sensors through each incident patch. `through`: emergent light of the system by
+    /// Prepares the illuminances at the sensors through each incident patch. `through`: emergent light of the system by
     /// patch; `views`: responses of the sensors to it.
-    pub fn new(through: &SkyThrough, views: &DescribedViews) -> Self {
+    pub fn new(through: &SkyThrough, views: Arc<DescribedViews>) -> Self {
         let rows: Vec<SensorRows> = match through.rows() {
             ScatteredRows::None => Vec::new(),
             ScatteredRows::Bands(rows) => {
@@ -232,26 +237,31 @@ impl Described {
                 rows.par_iter().map(light).collect()
             }
         };
-        let column = |patch: PatchLight| {
-            let mut light = vec![0.0; views.cells.width()];
-            patch.cells.iter().for_each(|&(cell, luminance)| views.cells.add(cell, luminance, &mut light));
-            for (row, share) in patch.rows {
-                if let Some(row) = rows.get(row) {
-                    light.iter_mut().zip(row).for_each(|(sum, e)| *sum += share * e);
-                }
-            }
-            light
-        };
-        let columns = through.by_patch().into_par_iter().map(column).collect();
+        let rows = Arc::new(rows);
         let by_angle = match through.rows() {
             ScatteredRows::Bands(own) if own.len() > 1 => Some(Arc::new(ByAngle {
                 upright: own[0].upright,
                 errors: own.iter().map(relative_error).collect(),
-                rows,
+                rows: Arc::clone(&rows),
             })),
             _ => None,
         };
-        Self { basis: Arc::clone(through.basis()), columns, error: through.relative_error(), by_angle }
+        let (basis, error) = (Arc::clone(through.basis()), through.relative_error());
+        Self { basis, error, by_angle, views, patches: through.by_patch(), rows }
+    }
+
+    /// Computes the illuminances at the sensors per illuminance of the aperture through the incident patch with the
+    /// index `patch` in the basis.
+    pub fn through_patch(&self, patch: usize) -> Column {
+        let PatchLight { cells, rows } = &self.patches[patch];
+        let mut light = vec![0.0; self.views.cells.width()];
+        cells.iter().for_each(|&(cell, luminance)| self.views.cells.add(cell, luminance, &mut light));
+        for (row, share) in rows {
+            if let Some(row) = self.rows.get(*row) {
+                light.iter_mut().zip(row).for_each(|(sum, e)| *sum += share * e);
+            }
+        }
+        Column { light, difference: Vec::new() }
     }
 }
 

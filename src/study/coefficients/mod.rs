@@ -6,6 +6,7 @@
 //! | `views` | V: sensors by emergent cell |
 //! | `transport` | V·T: sensors by incident direction |
 //! | `described` | V·T of described systems |
+//! | `columns` | V·T of all incident patches, and the table of sky, ground and skyline |
 //! | `part` | V·T·D of an aperture: sky, ground and skyline |
 //! | `behind`, `sent`, `by_node` | V·T·D behind boxes: columns by luminance |
 //! | `straight` | the outside seen by regular transmission |
@@ -23,6 +24,7 @@
 mod beam;
 mod behind;
 mod by_node;
+mod columns;
 mod described;
 mod part;
 mod sent;
@@ -285,7 +287,7 @@ impl Coefficients {
             let rest = self.rest().hypot(0.5 * part.gap);
             for ((estimates, sums), (_, way)) in estimates.iter_mut().zip(sums).zip(skies) {
                 let directions = if matches!(way, Way::Exact(_)) { 1e-5 } else { self.directions };
-                let relative = part.transport.relative_error() + directions;
+                let relative = part.relative_error + directions;
                 for (s, sum) in estimates.iter_mut().enumerate() {
                     let (value, reflected) = (sums.total[s].max(0.0), sums.reflected[s].abs());
                     let squares = sums.reflected_uncertainty[s].powi(2) + (rest * reflected).powi(2);

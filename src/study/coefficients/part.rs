@@ -2,19 +2,18 @@
 //! and the outside seen by regular transmission, in directions chosen for every sensor.
 
 use super::behind::{Behind, Moment, Past, luminances, nodes};
+use super::columns::Columns;
 use super::described::{Described, DescribedViews};
 use super::sent::Sent;
 use super::straight::{StraightView, seen_exactly};
 use super::sun_way::SunWay;
-use super::transport::{self, ACROSS, Column, Transport};
-use super::views::{Opening, Views, Want};
+use super::transport::{self, Transport};
+use super::views::Opening;
 use crate::compute::basis::RingBasis;
 use crate::compute::btdf::{AngularTransmittance, Btdf};
 use crate::compute::direction::Dir;
-use crate::compute::dot::add_scaled;
 use crate::compute::estimate::Estimate;
 use crate::compute::lid::SkyThrough;
-use crate::compute::quadrature::gauss_legendre;
 use crate::compute::room::sunlit_part::SunlitPart;
 use crate::compute::sky::{Outside, Prepared, Sun};
 use crate::compute::system::measure::Side;
@@ -49,6 +48,8 @@ pub(super) struct AperturePart {
     sunlit: Option<Arc<SunlitYear>>,
     /// Response of the sensors to light that is scattered by the system.
     pub transport: Transport,
+    /// Estimate of the relative error of scattered light, of the data or of the description.
+    pub relative_error: f64,
     /// Regular transmittance of the system; `None` if it has none.
     pub regular: Option<AngularTransmittance>,
     /// Method for the transmission of direct sunlight through the system.
@@ -126,52 +127,48 @@ impl AperturePart {
         obstructed: Option<(&Behind, &Cache<Mat<f32>>)>,
     ) -> Result<Self, StudyError> {
         let Opening { session, scene, index, room, .. } = *opening;
-        let model = scene.apertures[index].system.model.as_ref().filter(|_| scene.beams);
-        let described = model.map(|model| described_views(opening, model)).transpose()?;
-        let by_description = described_through(session, scene, index)
-            .zip(described.as_ref())
-            .map(|((_, through), views)| Described::new(&through.1, views));
+        let through = described_through(session, scene, index);
+        let described = |opening: &Opening<'_>| {
+            let described = through.as_ref().map(|(model, through)| {
+                Ok::<_, StudyError>(Described::new(&through.1, Arc::new(described_views(opening, model)?)))
+            });
+            described.transpose()
+        };
+        let own = described(opening)?;
         // Light that the description covers is not computed from the data, which need not exist.
         let nothing = Btdf::default();
-        let btdf = if by_description.is_some() { &nothing } else { btdf };
-        let (patches, spacing, transport) = match by_description {
-            Some(own) => (RingBasis::clone(&own.basis), transport::SPACING, Transport::Described(Box::new(own))),
-            None => {
-                let (patches, spacing) = transport::patches(btdf, scene.interpolation);
-                (patches, spacing, Transport::new(opening, btdf)?)
-            }
+        let btdf = if own.is_some() { &nothing } else { btdf };
+        let transport = Transport::new(opening, btdf)?;
+        let (patches, spacing) = match &own {
+            Some(own) => (RingBasis::clone(&own.basis), transport::SPACING),
+            None => transport::patches(btdf, scene.interpolation),
         };
-        let by_angle = match &transport {
-            Transport::Described(own) => own.by_angle.clone(),
-            _ => None,
-        };
-        let model = model.cloned().zip(described).map(|(model, views)| (model, views, by_angle));
-        let sun = SunWay::new(opening, btdf, model)?;
         let regular = btdf.regular.as_ref();
         let (sky, gap) = match obstructed {
             Some((behind, direct)) => {
-                let through = described_through(session, scene, index);
                 let nodes = nodes(&scene.apertures[index].aperture);
                 let reflecting = Opening { nodes: Some(&nodes), ..*opening };
-                let (columns, gap) = match (room, &through) {
-                    (None, _) => (Vec::new(), 0.0),
-                    (Some(_), Some((model, through))) => {
-                        let own = Described::new(&through.1, &described_views(&reflecting, model)?);
-                        columns(&reflecting, &Transport::Described(Box::new(own)), &patches, regular)?
-                    }
-                    (Some(_), None) => columns(&reflecting, &Transport::new(&reflecting, btdf)?, &patches, regular)?,
+                let by_node = match room {
+                    Some(_) => Some((described(&reflecting)?, Transport::new(&reflecting, btdf)?)),
+                    None => None,
                 };
+                let columns = by_node.as_ref().map(|(described, transport)| {
+                    Columns::new(&reflecting, (described.as_ref(), transport), &patches, regular)
+                });
+                let columns = columns.transpose()?;
                 let sent = match &through {
                     Some((_, through)) => Some(Sent::described(&through.1)),
                     None => Sent::of_data(session, btdf, scene.interpolation, &patches),
                 };
-                let past = behind.past(opening, nodes, (&patches, &columns), sent, regular, direct)?;
+                let past = behind.past(opening, nodes.clone(), (&patches, columns.as_ref()), sent, regular, direct)?;
+                let gap = columns.as_ref().map_or(0.0, Columns::gap);
                 (Seen::Behind(Arc::clone(&behind.prepared), Box::new(past), None), gap)
             }
             None => {
-                let (columns, gap) = columns(opening, &transport, &patches, regular)?;
-                let sky = session.sky_patches(scene, index, patches, spacing);
-                let tables = by_patches(&sky, &columns, scene.sensors.len());
+                let columns = Columns::new(opening, (own.as_ref(), &transport), &patches, regular)?;
+                let gap = columns.gap();
+                let sky = session.sky_patches(scene, index, patches.clone(), spacing);
+                let tables = columns.table(&sky);
                 // Through an aperture every sensor sees another part of the sky, with sharp borders: patches would
                 // blur them.
                 let constants = regular.map(|_| Constants::of(&scene.outside));
@@ -183,10 +180,18 @@ impl AperturePart {
                 (Seen::Alike { patches: sky, tables, straight, year: None }, gap)
             }
         };
+        let relative_error = own.as_ref().map_or(transport.relative_error(), |own| own.error);
+        let model = scene.apertures[index].system.model.as_ref().filter(|_| scene.beams);
+        let model = model.map(|model| match own {
+            Some(own) => Ok((model.clone(), own.views, own.by_angle)),
+            None => Ok::<_, StudyError>((model.clone(), Arc::new(described_views(opening, model)?), None)),
+        });
+        let sun = SunWay::new(opening, btdf, model.transpose()?)?;
         Ok(Self {
             year: None,
             sunlit: None,
             transport,
+            relative_error,
             sun,
             regular: btdf.regular.clone(),
             gap,
@@ -357,63 +362,6 @@ fn described_through<'a>(
     let model =
         scene.apertures[index].system.model.as_ref().filter(|model| scene.beams && model.answers_for_the_sky())?;
     Some((model, session.sky_through(model)))
-}
-
-/// Returns the illuminances at the sensors per illuminance through each incident patch, without direct light by regular
-/// transmission; and the relative gap of flux of the interreflection.
-fn columns(
-    opening: &Opening<'_>,
-    transport: &Transport,
-    patches: &RingBasis,
-    regular: Option<&AngularTransmittance>,
-) -> Result<(Vec<Column>, f64), StudyError> {
-    // Direct light by regular transmission is computed separately: these are its interreflections.
-    let straight = match (regular, opening.room) {
-        (Some(tau), Some(_)) => Some((tau, Views::new(opening, Arc::new(patches.clone()), Want::Reflected)?)),
-        _ => None,
-    };
-    let across = gauss_legendre(ACROSS);
-    let column = |p: usize| {
-        let cell = patches.cell(p);
-        let mut column = transport.through_patch(p, &cell, opening.places());
-        if let Some((tau, views)) = &straight {
-            // Regular transmission leaves by the patch that it entered through, as a luminance uniform over it.
-            let passed = tau.ring_mean(cell.theta_min, cell.theta_max, &across);
-            views.add(p, passed / cell.projected_solid_angle(), &mut column.light);
-        }
-        column
-    };
-    let columns = (0..patches.len()).into_par_iter().map(column).collect();
-    Ok((columns, straight.map_or(0.0, |(_, views)| views.gap)))
-}
-
-/// Returns the table of an aperture all of whose points see the same patches of the outside. `columns`: illuminances at
-/// the sensors by patch; `places`: number of sensors.
-fn by_patches(sky: &SkyPatches, columns: &[Column], places: usize) -> Mat<f32> {
-    // Patches wholly under the horizon hold ground and skyline only, and need no column of the sky.
-    let open = sky.samples.cells();
-    let width = open.len() + 2;
-    // Only lobes between directions have an uncertainty of interpolation: others save the fourth table.
-    let has_differences = columns.iter().any(|column| !column.difference.is_empty());
-    let rows = places * if has_differences { 4 } else { 3 };
-    let mut tables = Mat::zeros(rows, width);
-    let mut put = |to: usize, light: &mut dyn Iterator<Item = f64>| {
-        tables.col_as_slice_mut(to).iter_mut().zip(light).for_each(|(to, e): (&mut f32, f64)| *to = e as f32);
-    };
-    for (to, &p) in open.iter().enumerate() {
-        put(to, &mut columns[p].light.iter().chain(&columns[p].difference).copied());
-    }
-    // Both are uniform, whatever the sky: summed over all patches now, a new sky needs their two luminances alone.
-    for (to, share) in [(width - 2, &sky.ground), (width - 1, &sky.skyline)] {
-        let mut sum = vec![0.0; rows];
-        for (column, share) in columns.iter().zip(share) {
-            let (light, difference) = sum.split_at_mut(3 * places);
-            add_scaled(light, &column.light, *share);
-            add_scaled(difference, &column.difference, *share);
-        }
-        put(to, &mut sum.into_iter());
-    }
-    tables
 }
 
 /// Computes the responses of the sensors to the light that a described system emits.

@@ -30,7 +30,7 @@ pub(super) enum SunWay {
 /// scattering depends on nothing else, or else interpolated between directions.
 pub(super) struct ByDescription {
     model: SystemModel,
-    views: DescribedViews,
+    views: Arc<DescribedViews>,
     by_angle: Option<Arc<ByAngle>>,
     lattice: Lattice,
 }
@@ -69,7 +69,7 @@ impl SunWay {
     pub fn new(
         opening: &Opening<'_>,
         btdf: &Btdf,
-        described: Option<(SystemModel, DescribedViews, Option<Arc<ByAngle>>)>,
+        described: Option<(SystemModel, Arc<DescribedViews>, Option<Arc<ByAngle>>)>,
     ) -> Result<Self, StudyError> {
         let scene = opening.scene;
         if let Some((model, views, by_angle)) = described {

@@ -1,7 +1,6 @@
 //! V·T: illuminance at every sensor per illuminance of an aperture from one incident direction or through one incident
 //! patch.
 
-use super::described::Described;
 use super::views::{Opening, SensorRows, Views, Want, even};
 use crate::compute::basis::{Cell, RingBasis};
 use crate::compute::btdf::{AngularTransmittance, Btdf, CellMatrix, Indicatrices, Scattered, TensorTree};
@@ -48,8 +47,6 @@ pub(super) enum Transport {
     Lobes(Box<Lobes>),
     /// Tensor tree, with the responses of the sensors to the luminances of its emergent cells.
     Tree(Box<TensorTree>, Views),
-    /// System given by its description.
-    Described(Box<Described>),
 }
 
 /// Lobes that move with the incident direction. Light that does not move (the bases) is stored as illuminances at the
@@ -146,12 +143,11 @@ impl Transport {
     }
 
     /// Returns an estimate of the relative error of the computed illuminances that other stated errors do not contain:
-    /// of interpolated lobes, of a tensor tree's cells, or of a description; 0 for other data.
+    /// of interpolated lobes, or of a tensor tree's cells; 0 for other data.
     pub fn relative_error(&self) -> f64 {
         match self {
             Self::Lobes(_) => REST,
             Self::Tree(..) => TREE_CELL_ERROR,
-            Self::Described(described) => described.error,
             _ => 0.0,
         }
     }
@@ -169,7 +165,6 @@ impl Transport {
                 Column::scaled(even, tau.ring_mean(cell.theta_min, cell.theta_max, &gauss_legendre(ACROSS)) / PI)
             }
             Self::Cells(_, columns) => Column::scaled(&columns[index], 1.0),
-            Self::Described(described) => Column::scaled(&described.columns[index], 1.0),
             Self::Tree(tree, views) => {
                 let mut column = Column::dark(sensors);
                 let four = [(0.25, -0.25), (0.25, 0.25), (0.75, -0.25), (0.75, 0.25)];
@@ -194,10 +189,6 @@ impl Transport {
             Self::Cells(basis, columns) => {
                 basis.index(d).map_or_else(|| Column::dark(sensors), |cell| Column::scaled(&columns[cell], 1.0))
             }
-            Self::Described(described) => described
-                .basis
-                .index(d)
-                .map_or_else(|| Column::dark(sensors), |cell| Column::scaled(&described.columns[cell], 1.0)),
             Self::Nearest(data, columns) => {
                 data.standing_for(d).map_or_else(|| Column::dark(sensors), |i| Column::scaled(&columns[i], 1.0))
             }
