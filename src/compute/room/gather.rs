@@ -35,8 +35,9 @@ pub fn configuration_factors(mesh: &Mesh, position: DVec3, normal: DVec3) -> Vec
 pub struct Reconstruction {
     /// Weights w with the illuminance E = Σ w_j B_j from the mean exitances B_j of the patches.
     pub weights: Vec<f64>,
-    /// Part of `weights` by the slopes; with the exitances it shows how much patches near the point matter.
-    pub slopes: Vec<f64>,
+    /// Part of `weights` by the slopes, with the indices of the patches that have one; with the exitances it shows how
+    /// much patches near the point matter.
+    pub slopes: Vec<(usize, f64)>,
 }
 
 /// Computes the weights of the patches' exitances at a point, with slopes within near patches. `position` and `normal`:
@@ -89,7 +90,7 @@ pub fn reconstruct(mesh: &Mesh, position: DVec3, normal: DVec3) -> Reconstructio
         }
     }
     weights.iter_mut().zip(&slopes).for_each(|(weight, slope)| *weight += slope);
-    Reconstruction { weights, slopes }
+    Reconstruction { weights, slopes: slopes.into_iter().enumerate().filter(|(_, slope)| *slope != 0.0).collect() }
 }
 
 /// Ratio of a patch's size to its distance from the point above which its slopes count. Chosen: cost; the error that

@@ -229,7 +229,7 @@ impl Session {
             let value = (value + difference / 3.0 + outlines + room_side_reflection).max(0.0);
             // The outlines are seen in closed form.
             let rest = (REST / mesh.patches.len() as f64).hypot(gap).hypot(misplaced) * (value - outlines);
-            let near = NEAR * dot(&fine.slopes, &exitance.fine);
+            let near = NEAR * fine.slopes.iter().map(|&(patch, slope)| slope * exitance.fine[patch]).sum::<f64>();
             Ok(Estimate::new(
                 value,
                 (DIFFERENCE * squares.sqrt()).hypot(rest).hypot(near)

@@ -25,7 +25,6 @@ use crate::study::error::StudyError;
 use crate::study::scene::{Scene, SceneAperture};
 use rayon::prelude::*;
 use std::borrow::Cow;
-use std::ops::Range;
 use std::sync::Arc;
 
 /// Responses of all sensors in a room to light on its patches, for computing interreflected light.
@@ -119,18 +118,15 @@ fn weights_of(
     gather: &[[Reconstruction; 2]],
     progress: &dyn Progress,
 ) -> Result<Vec<Response>, StudyError> {
-    let walls: Vec<Vec<[Vec<f64>; 2]>> =
-        gather.par_iter().map(|[fine, coarse]| by_walls(radiosity, &fine.weights, &coarse.weights)).collect();
-    let walls = |range: Range<usize>| walls[range].iter().flatten();
-    let blocks: Vec<Range<usize>> =
-        (0..gather.len()).step_by(TOGETHER).map(|s| s..(s + TOGETHER).min(gather.len())).collect();
-    let block = |sensors: &Range<usize>| {
+    let block = |sensors: &[[Reconstruction; 2]]| {
         check(progress)?;
-        let [fine, coarse] = [0, 1].map(|k| walls(sensors.clone()).map(|wall| &wall[k][..]).collect::<Vec<_>>());
+        let walls: Vec<Vec<[Vec<f64>; 2]>> =
+            sensors.iter().map(|[fine, coarse]| by_walls(radiosity, &fine.weights, &coarse.weights)).collect();
+        let [fine, coarse] = [0, 1].map(|k| walls.iter().flatten().map(|wall| &wall[k][..]).collect::<Vec<_>>());
         let mut found = radiosity.adjoint_fine(&fine).into_iter().zip(radiosity.adjoint_coarse(&coarse));
-        let response = |s: usize| {
+        let response = |walls: &Vec<[Vec<f64>; 2]>| {
             let mut response = Response { value: vec![0.0; radiosity.nested.fine.patches.len()], walls: Vec::new() };
-            for (by_fine, by_coarse) in found.by_ref().take(walls(s..s + 1).count()) {
+            for (by_fine, by_coarse) in found.by_ref().take(walls.len()) {
                 // As the extrapolation of the two densities: fine + (fine − coarse)/3.
                 let difference: Vec<f64> = by_fine.iter().zip(&by_coarse).map(|(f, c)| f - c).collect();
                 for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
@@ -140,9 +136,9 @@ fn weights_of(
             }
             response
         };
-        Ok(sensors.clone().map(response).collect::<Vec<_>>())
+        Ok(walls.iter().map(response).collect::<Vec<_>>())
     };
-    let found = blocks.par_iter().map(block).collect::<Result<Vec<_>, StudyError>>()?;
+    let found = gather.par_chunks(TOGETHER).map(block).collect::<Result<Vec<_>, StudyError>>()?;
     Ok(found.into_iter().flatten().collect())
 }
 
