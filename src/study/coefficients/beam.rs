@@ -213,9 +213,7 @@ impl Coefficients {
                     // Result of the data's own cells alone, with fluxes interpolated in straight lines.
                     let simpler =
                         column.difference.get(s).map_or(0.0, |d| (column.light[s] + d) * illuminance - own[s]);
-                    uncertainty.hypot(self.rest() * reflected)
-                        + simpler.abs()
-                        + part.relative_error * own[s]
+                    uncertainty.hypot(self.rest() * reflected) + simpler.abs() + part.relative_error * own[s]
                 });
                 let reflected = column.as_ref().map_or(0.0, |column| column.light[sensors + s] * illuminance);
                 *sum += of_part(Estimate::new(own[s], error), reflected, shares.map(|shares| shares[s]));
