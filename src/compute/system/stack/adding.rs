@@ -6,7 +6,7 @@
 //! cells than the requested ones, and only the combined result is averaged. The remaining error is estimated from the
 //! difference to the next coarser division.
 
-use super::halves::{Flux, Halves};
+use super::halves::{Halves, Part};
 use super::single::Singles;
 use crate::compute::basis::{AzimuthMap, Resampling, RingBasis, same_cells};
 use crate::compute::btdf::{CellMatrix, resample_matrix};
@@ -165,7 +165,7 @@ const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
 
 /// Combines the layers, with all reflections between them, into means over the cells of `setting`; `None` if one of the
 /// layers does not have the mirror symmetry `mirror`. On fine cells whole matrices need most of the memory: each is
-/// freed as soon as it has been used.
+/// freed as soon as it has been used, and the odd parts follow the even ones.
 fn sum(
     cells: &RingBasis,
     mirror: Option<Mirror>,
@@ -196,14 +196,20 @@ fn turned(basis: &RingBasis) -> Option<Vec<usize>> {
     mirror_images(basis, |phi| phi + PI)
 }
 
-/// Layer as flux matrices: share of the light of cell i (column) that leaves through cell o (row). Light from either
-/// side is indexed by its direction of travel as for light from outside, so that the matrices of layers can be
-/// multiplied.
+/// Layer as flux matrices.
 struct Layered {
-    t: [Flux; 2],
-    r: [Flux; 2],
+    even: Matrices,
+    odd: Matrices,
     absorbed: [Vec<f64>; 2],
     error: [Vec<f64>; 2],
+}
+
+/// Even or odd part of a layer's flux matrices: share of the light of cell i (column) that leaves through cell o (row).
+/// Light from either side is indexed by its direction of travel as for light from outside, so that the matrices of
+/// layers can be multiplied.
+struct Matrices {
+    t: [Part; 2],
+    r: [Part; 2],
 }
 
 impl Layered {
@@ -216,9 +222,11 @@ impl Layered {
         let back = |q: Vec<f64>| halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]);
         let own = |list: &[f64]| halves.list(|k| list[k]);
         let named = |list: &[f64]| halves.list(|k| list[turn[k]]);
+        let [[t, t_odd], [t_back, t_back_odd]] = [front(f.transmitted), back(b.transmitted)];
+        let [[r, r_odd], [r_back, r_back_odd]] = [front(f.reflected), back(b.reflected)];
         Self {
-            t: [front(f.transmitted), back(b.transmitted)],
-            r: [front(f.reflected), back(b.reflected)],
+            even: Matrices { t: [t, t_back], r: [r, r_back] },
+            odd: Matrices { t: [t_odd, t_back_odd], r: [r_odd, r_back_odd] },
             absorbed: [own(&f.absorbed), named(&b.absorbed)],
             error: [own(&f.error), named(&b.error)],
         }
@@ -226,36 +234,19 @@ impl Layered {
 
     /// Returns the combination of this layer outside and the layer `inner` inside, with all reflections between them.
     fn before(self, inner: Self) -> Self {
-        let [t1, t1_back] = self.t;
-        let [t2, t2_back] = inner.t;
-        let ([r1, r1_back], [r2, r2_back]) = (self.r, inner.r);
-        let (absorbed, error) = (self.absorbed, self.error);
-        let in_gap = |own: &[f64], inward: &Flux, outward: &Flux, outer: &[f64], within: &[f64]| -> Vec<f64> {
-            let gap = outward.weighted(outer).into_iter().zip(inward.weighted(within));
-            own.iter().zip(gap).map(|(own, (a, b))| own + a + b).collect()
-        };
-        // Inward and outward light in the gap for light from outside, then for light from inside, whose outward part is
-        // what came through plus what the inner layer reflects.
-        let series = r1_back.times(&r2).series();
-        let inward = series.of(t1);
-        let outward = r2.times(&inward);
-        let from_outside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&a[0], &inward, &outward, &a[1], &b[0]);
-        let (absorbed_front, error_front) =
-            (from_outside(&absorbed, &inner.absorbed), from_outside(&error, &inner.error));
-        let (r, t) = (r1.plus(t1_back.times(&outward)), t2.times(&inward));
-        drop((inward, outward));
-        let inward = series.of(r1_back.times(&t2_back));
-        drop((series, r1_back));
-        let outward = t2_back.plus(r2.times(&inward));
-        drop(r2);
-        let from_inside = |a: &[Vec<f64>; 2], b: &[Vec<f64>; 2]| in_gap(&b[1], &inward, &outward, &a[1], &b[0]);
-        let (absorbed_back, error_back) = (from_inside(&absorbed, &inner.absorbed), from_inside(&error, &inner.error));
-        Self {
-            t: [t, t1_back.times(&outward)],
-            r: [r, r2_back.plus(t2.times(&inward))],
-            absorbed: [absorbed_front, absorbed_back],
-            error: [error_front, error_back],
-        }
+        // Lists are the same in mirror-image cells: they have an even part alone.
+        let [mut absorbed, mut error] = [[vec![], vec![]], [vec![], vec![]]];
+        let even = self.even.before(inner.even, |side, inward, outward| {
+            let in_gap = |outer: &[Vec<f64>; 2], within: &[Vec<f64>; 2]| -> Vec<f64> {
+                let own = if side == 0 { &outer[0] } else { &within[1] };
+                let gap = outward.weighted(&outer[1]).into_iter().zip(inward.weighted(&within[0]));
+                own.iter().zip(gap).map(|(own, (a, b))| own + a + b).collect()
+            };
+            absorbed[side] = in_gap(&self.absorbed, &inner.absorbed);
+            error[side] = in_gap(&self.error, &inner.error);
+        });
+        let odd = self.odd.before(inner.odd, |_, _, _| ());
+        Self { even, odd, absorbed, error }
     }
 
     /// Returns the layer's transmission, reflection and absorption as means over the cells of `setting`.
@@ -272,8 +263,8 @@ impl Layered {
                 CellMatrix::new(cells.clone(), cells.clone(), q).expect("as many values as pairs of these cells");
             resample_matrix(&matrix, setting.incident, setting.emergent).values().into_owned()
         };
-        let front = |m: &Flux| averaged(&|o, i| halves.entry(m, o, i));
-        let back = |m: &Flux| averaged(&|o, i| halves.entry(m, turn[o], turn[i]));
+        let front = |m: [&Part; 2]| averaged(&|o, i| halves.entry(m, o, i));
+        let back = |m: [&Part; 2]| averaged(&|o, i| halves.entry(m, turn[o], turn[i]));
         let own = |list: &[f64]| mean.apply(&halves.unfolded(list));
         let named = |list: &[f64]| {
             let list = halves.unfolded(list);
@@ -283,18 +274,41 @@ impl Layered {
             incident: setting.incident.clone(),
             emergent: setting.emergent.clone(),
             front: OneSide {
-                transmitted: front(&self.t[0]),
-                reflected: front(&self.r[0]),
+                transmitted: front([&self.even.t[0], &self.odd.t[0]]),
+                reflected: front([&self.even.r[0], &self.odd.r[0]]),
                 absorbed: own(&self.absorbed[0]),
                 error: own(&self.error[0]),
             },
             back: OneSide {
-                transmitted: back(&self.t[1]),
-                reflected: back(&self.r[1]),
+                transmitted: back([&self.even.t[1], &self.odd.t[1]]),
+                reflected: back([&self.even.r[1], &self.odd.r[1]]),
                 absorbed: named(&self.absorbed[1]),
                 error: named(&self.error[1]),
             },
         }
+    }
+}
+
+impl Matrices {
+    /// Returns the matrices of this layer outside and the layer `inner` inside, with all reflections between them.
+    /// `gap`: takes the inward and the outward light in the gap between the layers, for light from outside (0), then
+    /// from inside (1).
+    fn before(self, inner: Self, mut gap: impl FnMut(usize, &Part, &Part)) -> Self {
+        let ([t1, t1_back], [t2, t2_back]) = (self.t, inner.t);
+        let ([r1, r1_back], [r2, r2_back]) = (self.r, inner.r);
+        // The outward light of light from inside is what came through plus what the inner layer reflects.
+        let series = r1_back.times(&r2).series();
+        let inward = series.of(t1);
+        let outward = r2.times(&inward);
+        gap(0, &inward, &outward);
+        let (r, t) = (r1.plus(t1_back.times(&outward)), t2.times(&inward));
+        drop((inward, outward));
+        let inward = series.of(r1_back.times(&t2_back));
+        drop((series, r1_back));
+        let outward = t2_back.plus(r2.times(&inward));
+        drop(r2);
+        gap(1, &inward, &outward);
+        Self { t: [t, t1_back.times(&outward)], r: [r, r2_back.plus(t2.times(&inward))] }
     }
 }
 

@@ -4,8 +4,10 @@
 //! system does not mix the two, so that products and inverses of matrices cost a quarter.
 
 use crate::compute::system::measure::Measured;
-use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
+use faer::{Mat, Par};
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Maximum difference of flux between mirror-image cells up to which a layer counts as symmetric, as a share of the
@@ -58,13 +60,13 @@ impl Halves {
     }
 
     /// Returns the even and the odd part of a matrix given by its entries `at(row, column)`.
-    pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> Flux {
+    pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> [Part; 2] {
         let sums = |row: usize, column: usize, sign: f64| {
             let ([a, b], [c, d]) = (self.members[row], self.members[column]);
             (at(a, c) + at(b, d) + sign * (at(a, d) + at(b, c))) * 0.5 * self.factor(row) * self.factor(column)
         };
         let (n, m) = (self.members.len(), self.pairs);
-        Flux { even: Part::new(n, |r, c| sums(r, c, 1.0)), odd: Part::new(m, |r, c| sums(r, c, -1.0)) }
+        [Part::new(n, |r, c| sums(r, c, 1.0)), Part::new(m, |r, c| sums(r, c, -1.0))]
     }
 
     /// Returns the normalisation of a pair: 1, or 1/√2 for a cell that is its own image, which sums over pairs count
@@ -73,12 +75,12 @@ impl Halves {
         if member < self.pairs { 1.0 } else { FRAC_1_SQRT_2 }
     }
 
-    /// Returns the entry (`row`, `column`) of the whole matrix from its two parts.
-    pub fn entry(&self, flux: &Flux, row: usize, column: usize) -> f64 {
+    /// Returns the entry (`row`, `column`) of the whole matrix from its even and odd part.
+    pub fn entry(&self, [even_part, odd_part]: [&Part; 2], row: usize, column: usize) -> f64 {
         let ((r, sign_r), (c, sign_c)) = (self.of[row], self.of[column]);
         let even = |member: usize| if member < self.pairs { FRAC_1_SQRT_2 } else { 1.0 };
-        let odd = if sign_r * sign_c == 0.0 { 0.0 } else { sign_r * sign_c * flux.odd.entry(r, c) };
-        flux.even.entry(r, c) * even(r) * even(c) + odd
+        let odd = if sign_r * sign_c == 0.0 { 0.0 } else { sign_r * sign_c * odd_part.entry(r, c) };
+        even_part.entry(r, c) * even(r) * even(c) + odd
     }
 
     /// Returns the even part, one value per pair, of a list over all cells in which mirror images have the same value.
@@ -94,50 +96,9 @@ impl Halves {
     }
 }
 
-/// Flux matrix of a system that is symmetric left to right, as an even and an odd part.
-pub(super) struct Flux {
-    even: Part,
-    odd: Part,
-}
-
-impl Flux {
-    /// Returns the matrix product self · other: the effect of `other`, then of `self`, on light.
-    pub fn times(&self, other: &Self) -> Self {
-        Self { even: self.even.times(&other.even), odd: self.odd.times(&other.odd) }
-    }
-
-    /// Returns the sum of both matrices.
-    pub fn plus(self, other: Self) -> Self {
-        Self { even: self.even.plus(other.even), odd: self.odd.plus(other.odd) }
-    }
-
-    /// Returns (1 − self)⁻¹, the sum of the geometric series of reflections, factorised for its application.
-    pub fn series(self) -> Series {
-        Series { even: self.even.series(), odd: self.odd.series() }
-    }
-
-    /// Returns the sum over the rows of every column, weighted by `weights`, one per pair of cells.
-    pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
-        self.even.weighted(weights)
-    }
-}
-
-/// Sum of all reflections between two layers, (1 − R)⁻¹.
-pub(super) struct Series {
-    even: PartSeries,
-    odd: PartSeries,
-}
-
-impl Series {
-    /// Returns (1 − R)⁻¹ · `light`: the light itself plus all light that it becomes by reflections between the layers.
-    pub fn of(&self, light: Flux) -> Flux {
-        Flux { even: self.even.of(light.even), odd: self.odd.of(light.odd) }
-    }
-}
-
-/// Square matrix. Panes keep the directions of light: of a matrix without entries beside its diagonal only the diagonal
-/// is stored, which makes products with it as quick as sums.
-enum Part {
+/// Even or odd part of a flux matrix. Panes keep the directions of light: of a matrix without entries beside its diagonal
+/// only the diagonal is stored, which makes products with it as quick as sums.
+pub(super) enum Part {
     Diagonal(Vec<f64>),
     Full(Mat<f64>),
 }
@@ -160,7 +121,8 @@ impl Part {
         }
     }
 
-    fn times(&self, other: &Self) -> Self {
+    /// Returns the matrix product self · other: the effect of `other`, then of `self`, on light.
+    pub fn times(&self, other: &Self) -> Self {
         match (self, other) {
             (Self::Diagonal(a), Self::Diagonal(b)) => Self::Diagonal(a.iter().zip(b).map(|(a, b)| a * b).collect()),
             (Self::Diagonal(a), Self::Full(b)) => Self::Full(Mat::from_fn(a.len(), a.len(), |r, c| a[r] * b[(r, c)])),
@@ -169,7 +131,8 @@ impl Part {
         }
     }
 
-    fn plus(self, other: Self) -> Self {
+    /// Returns the sum of both matrices.
+    pub fn plus(self, other: Self) -> Self {
         match (self, other) {
             (Self::Diagonal(a), Self::Diagonal(b)) => Self::Diagonal(a.iter().zip(&b).map(|(a, b)| a + b).collect()),
             (Self::Diagonal(list), Self::Full(mut matrix)) | (Self::Full(mut matrix), Self::Diagonal(list)) => {
@@ -185,19 +148,36 @@ impl Part {
         }
     }
 
-    fn series(self) -> PartSeries {
+    /// Returns (1 − self)⁻¹, the sum of the geometric series of reflections, factorised for its application.
+    pub fn series(self) -> Series {
         match self {
             Self::Diagonal(list) => {
-                PartSeries::Diagonal(Self::Diagonal(list.into_iter().map(|r| 1.0 / (1.0 - r)).collect()))
+                Series::Diagonal(Self::Diagonal(list.into_iter().map(|r| 1.0 / (1.0 - r)).collect()))
             }
-            Self::Full(matrix) => {
-                let n = matrix.nrows();
-                PartSeries::Full((Mat::<f64>::identity(n, n) - matrix).partial_piv_lu())
+            Self::Full(mut factors) => {
+                let n = factors.nrows();
+                for (c, column) in factors.col_iter_mut().enumerate() {
+                    for (r, entry) in column.iter_mut().enumerate() {
+                        *entry = if r == c { 1.0 } else { 0.0 } - *entry;
+                    }
+                }
+                let [mut rows, mut rows_back] = [vec![0; n], vec![0; n]];
+                let memory = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+                factor::lu_in_place(
+                    factors.as_mut(),
+                    &mut rows,
+                    &mut rows_back,
+                    Par::Seq,
+                    MemStack::new(&mut MemBuffer::new(memory)),
+                    Default::default(),
+                );
+                Series::Full { factors, rows: [rows, rows_back] }
             }
         }
     }
 
-    fn weighted(&self, weights: &[f64]) -> Vec<f64> {
+    /// Returns the sum over the rows of every column, weighted by `weights`, one per pair of cells.
+    pub fn weighted(&self, weights: &[f64]) -> Vec<f64> {
         match self {
             Self::Diagonal(list) => list.iter().zip(weights).map(|(entry, weight)| entry * weight).collect(),
             Self::Full(matrix) => {
@@ -208,34 +188,38 @@ impl Part {
     }
 }
 
-/// Factorised (1 − R)⁻¹ of one part.
-enum PartSeries {
+/// Sum of all reflections between two layers, (1 − R)⁻¹.
+pub(super) enum Series {
     /// The diagonal of (1 − R)⁻¹.
     Diagonal(Part),
-    Full(PartialPivLu<f64>),
+    /// Triangular factors L and U of 1 − R in the place of one matrix, and the order of its rows with its inverse.
+    Full { factors: Mat<f64>, rows: [Vec<usize>; 2] },
 }
 
-impl PartSeries {
-    fn of(&self, light: Part) -> Part {
-        match (self, light) {
-            (Self::Diagonal(series), light) => series.times(&light),
-            (Self::Full(lu), Part::Full(mut light)) => {
-                lu.solve_in_place(&mut light);
-                Part::Full(light)
-            }
-            (Self::Full(lu), Part::Diagonal(light)) => {
-                let n = light.len();
-                let mut light = Mat::from_fn(n, n, |r, c| if r == c { light[r] } else { 0.0 });
-                lu.solve_in_place(&mut light);
-                Part::Full(light)
-            }
-        }
+impl Series {
+    /// Returns (1 − R)⁻¹ · `light`: the light itself plus all light that it becomes by reflections between the layers.
+    pub fn of(&self, light: Part) -> Part {
+        let (factors, [rows, rows_back]) = match self {
+            Self::Diagonal(series) => return series.times(&light),
+            Self::Full { factors, rows } => (factors.as_ref(), rows),
+        };
+        let n = factors.nrows();
+        let mut light = match light {
+            Part::Full(light) => light,
+            Part::Diagonal(light) => Mat::from_fn(n, n, |r, c| if r == c { light[r] } else { 0.0 }),
+        };
+        let rows = PermRef::new_checked(rows, rows_back, n);
+        let memory = solve::solve_in_place_scratch::<usize, f64>(n, n, Par::Seq);
+        let mut memory = MemBuffer::new(memory);
+        solve::solve_in_place(factors, factors, rows, light.as_mut(), Par::Seq, MemStack::new(&mut memory));
+        Part::Full(light)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use faer::linalg::solvers::Solve as _;
 
     /// Cells 0–1 and 2–4 are images of each other, cell 3 its own.
     const IMAGE: [usize; 5] = [1, 0, 4, 3, 2];
@@ -264,24 +248,28 @@ mod tests {
             for halves in [Halves::new(&IMAGE), Halves::none(5)] {
                 let part = |whole: &Mat<f64>| halves.matrix(|r, c| whole[(r, c)]);
                 let (fa, fb) = (part(a), part(b));
-                let product_part = fa.times(&fb);
+                let product_part = [0, 1].map(|k| fa[k].times(&fb[k]));
                 let shares = [0.5, 0.5, 0.2, 0.7, 0.2];
-                let sums = halves.unfolded(&product_part.weighted(&halves.list(|k| shares[k])));
-                let sum = part(a).plus(part(b));
-                let series_part = part(a).series().of(part(b));
+                let sums = halves.unfolded(&product_part[0].weighted(&halves.list(|k| shares[k])));
+                let both = |of: fn(Part, Part) -> Part| {
+                    let ([even_a, odd_a], [even_b, odd_b]) = (part(a), part(b));
+                    [of(even_a, even_b), of(odd_a, odd_b)]
+                };
+                let [sum, series_part] = [both(Part::plus), both(|a, b| a.series().of(b))];
+                let entry = |[even, odd]: &[Part; 2], r, c| halves.entry([even, odd], r, c);
                 for c in 0..5 {
                     for r in 0..5 {
                         let at = format!("{name_a}, {name_b}, {r}, {c}");
-                        assert!((halves.entry(&fa, r, c) - a[(r, c)]).abs() < 1e-15, "{at}");
-                        assert!((halves.entry(&sum, r, c) - a[(r, c)] - b[(r, c)]).abs() < 1e-15, "{at}");
-                        assert!((halves.entry(&product_part, r, c) - product[(r, c)]).abs() < 1e-15, "{at}");
-                        assert!((halves.entry(&series_part, r, c) - series[(r, c)]).abs() < 1e-14, "{at}");
+                        assert!((entry(&fa, r, c) - a[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((entry(&sum, r, c) - a[(r, c)] - b[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((entry(&product_part, r, c) - product[(r, c)]).abs() < 1e-15, "{at}");
+                        assert!((entry(&series_part, r, c) - series[(r, c)]).abs() < 1e-14, "{at}");
                     }
                     let whole: f64 = (0..5).map(|k| product[(k, c)] * shares[k]).sum();
                     assert!((sums[c] - whole).abs() < 1e-15, "{name_a}, {name_b}, {c}");
                 }
                 let is_straight = |part: &Part| matches!(part, Part::Diagonal(_));
-                assert_eq!(is_straight(&fa.even), name_a.starts_with("straight"));
+                assert_eq!(is_straight(&fa[0]), name_a.starts_with("straight"));
             }
         }
         assert_eq!(Halves::new(&IMAGE).pairs, 2);
