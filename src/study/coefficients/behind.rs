@@ -104,9 +104,9 @@ impl Behind {
         Self { around: Surroundings::dark(prepared.boxes().to_vec(), None), prepared }
     }
 
-    /// Prepares an aperture. `columns`: interreflected light of every incident patch, node by node, if there is any; `sent`: scattered
-    /// light of the system by incident patch; `regular`: its regular transmittance; `direct`: cache of direct light by
-    /// aperture, shared by all meshes of the room.
+    /// Prepares an aperture. `columns`: interreflected light of every incident patch, node by node; `None` without
+    /// interreflection; `sent`: scattered light of the system by incident patch; `regular`: its regular transmittance;
+    /// `direct`: cache of direct light by aperture, shared by all meshes of the room.
     ///
     /// # Errors
     /// Returns an error if there are more sensors than fit, or if cancelled.

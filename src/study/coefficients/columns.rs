@@ -37,6 +37,7 @@ impl<'a> Columns<'a> {
         patches: &'a RingBasis,
         regular: Option<&'a AngularTransmittance>,
     ) -> Result<Self, StudyError> {
+        // Direct light by regular transmission is computed separately.
         let straight = match (regular, opening.room) {
             (Some(tau), Some(_)) => Some((tau, Views::new(opening, patches.clone().into(), Want::Reflected)?)),
             _ => None,
