@@ -99,10 +99,16 @@ impl App {
             Outcome::Read(import) => self.imports.take(&mut self.shell, *import),
             Outcome::Repaired(files, repaired) => self.imports.take_repaired(&mut self.shell, &files, repaired),
             Outcome::ReadScene(path, Ok(scene)) => {
+                let document = &self.shell.state.document;
+                // Until a product is selected the tiles are empty: nobody goes back to that.
+                let is_first = document.selection.product.is_empty() && !self.shell.undoer.has_undo(document);
                 self.shell.end_step();
                 self.shell.state.document.scene = *scene;
                 self.shell.state.scene_path = Some(path);
                 adopt_selection(&mut self.shell);
+                if is_first {
+                    self.shell.begin_history();
+                }
             }
             Outcome::ReadCurve(Ok(curve)) => {
                 let keys = self.shell.state.control_keys().with_mode(ControlMode::Curve);

@@ -3,13 +3,15 @@
 
 use crate::driven::{Idle, apply, frames, settle, step_until};
 use crate::files_view::sheet;
+use cfs::app::App;
 use cfs::app::catalogue::shelf::{Entry, Query};
 use cfs::app::command::Command;
 use cfs::app::compare::view::Act;
 use cfs::app::offer::offers;
 use cfs::app::results::backend::memory_shelf;
+use cfs::app::shell::jobs::Lane;
+use cfs::app::state::{Document, PathUse};
 use cfs::app::tour::step::TourAct;
-use cfs::app::{App, state::Document};
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
 use std::sync::Arc;
@@ -116,6 +118,33 @@ fn steps_that_follow_on_each_other_at_once_are_taken_back_one_by_one() {
         harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
         settle(&mut harness);
         assert_eq!(kept(&harness).document, *before);
+    }
+}
+
+#[test]
+fn the_history_begins_with_the_scene_that_the_window_is_started_with() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = folder.path().join("office.toml");
+    let mut other = frames(App::with_shelf(Arc::new(Idle), memory_shelf), [1280.0, 720.0]);
+    settle(&mut other);
+    apply(&mut other, Command::Hour(2));
+    apply(&mut other, Command::Write(PathUse::SaveScene, scene.clone()));
+    let mut app = App::with_shelf(Arc::new(Idle), memory_shelf);
+    app.apply(Command::OpenPaths(vec![scene]));
+    let mut harness = frames(app, [1280.0, 720.0]);
+    // The scene is read before the catalogue is listed, so that no product is selected yet.
+    step_until(&mut harness, "the catalogue is open", |app| app.shell.state.shelf().is_some());
+    harness.state_mut().apply(Command::Cancel(Lane::Catalogue));
+    step_until(&mut harness, "the scene is read", |app| app.shell.state.scene_path.is_some());
+    harness.state_mut().shell.search();
+    rest(&mut harness);
+    let started = kept(&harness);
+    assert_eq!(started.document.scene, kept(&other).document.scene);
+    apply(&mut harness, Command::Hour(1));
+    assert_ne!(kept(&harness), started);
+    for _ in 0..3 {
+        apply(&mut harness, Command::Undo);
+        assert_eq!(kept(&harness), started);
     }
 }
 

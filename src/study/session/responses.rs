@@ -23,6 +23,7 @@ use crate::compute::room::radiosity::{Radiosity, enough_is_absorbed};
 use crate::study::cache::Key;
 use crate::study::error::StudyError;
 use crate::study::scene::{Scene, SceneAperture};
+use half::bf16;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -85,7 +86,7 @@ impl Session {
         check(progress)?;
         // A value and its uncertainty, by walls, for every patch and sensor.
         let fine = &radiosity.nested.fine;
-        let each = fine.patches.len() * (size_of::<f64>() + fine.walls.len() * size_of::<f32>());
+        let each = fine.patches.len() * (size_of::<f64>() + fine.walls.len() * size_of::<bf16>());
         within_budget(scene, each)?;
         let key = room_key(scene, count);
         let sensor_key: Key = sensor_key(scene).collect();
@@ -132,7 +133,7 @@ fn weights_of(
                 for (sum, (f, d)) in response.value.iter_mut().zip(by_fine.iter().zip(&difference)) {
                     *sum += f + d / 3.0;
                 }
-                response.walls.push(difference.into_iter().map(|d| d as f32).collect());
+                response.walls.push(difference.into_iter().map(bf16::from_f64).collect());
             }
             response
         };
@@ -164,7 +165,7 @@ impl Responses {
             let cell = |c: usize| {
                 let added = mirrored.as_ref().map(|all| all.at(s, c));
                 let value = room.value[s][c] + added.map_or(0.0, |added| share * added.value());
-                let gap = |(w, wall): (usize, &Vec<f32>)| {
+                let gap = |(w, wall): (usize, &Vec<bf16>)| {
                     f64::from(wall[c]) + added.map_or(0.0, |added| share * added.wall(w))
                 };
                 let squares: f64 = room.walls[s].iter().enumerate().map(gap).map(|x| x * x).sum();
@@ -191,7 +192,7 @@ impl Responses {
         let one = |(s, sensor): (usize, &Response)| {
             let added = mirrored.as_ref().map(|all| all.at(s, 0));
             let value = dot(&sensor.value, first) + added.map_or(0.0, AddedAt::value);
-            let gap = |(w, wall): (usize, &Vec<f32>)| dot(wall, first) + added.map_or(0.0, |added| added.wall(w));
+            let gap = |(w, wall): (usize, &Vec<bf16>)| dot(wall, first) + added.map_or(0.0, |added| added.wall(w));
             let squares: f64 = sensor.walls.iter().enumerate().map(gap).map(|x| x * x).sum();
             Reflected { value, difference: squares.sqrt(), room_side_reflection: added.map_or(0.0, AddedAt::straight) }
         };

@@ -9,6 +9,7 @@ use crate::compute::room::nodes::Nodes;
 use crate::compute::room::patch_weights::PatchWeights;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::cache::Key;
+use half::bf16;
 use rayon::prelude::*;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -32,7 +33,7 @@ pub(super) struct ThroughRoom {
 /// Returns the weights of a sensor's response: those of its value, and with `with_uncertainty` those of its walls.
 fn lists(sensor: &Response, with_uncertainty: bool) -> impl Iterator<Item = Cow<'_, [f64]>> {
     let walls = sensor.walls.iter().filter(move |_| with_uncertainty);
-    let wide = |wall: &Vec<f32>| Cow::Owned(wall.iter().map(|&weight| f64::from(weight)).collect());
+    let wide = |wall: &Vec<bf16>| Cow::Owned(wall.iter().map(|&weight| f64::from(weight)).collect());
     std::iter::once(Cow::Borrowed(&sensor.value[..])).chain(walls.map(wide))
 }
 
@@ -85,7 +86,7 @@ impl ThroughRoom {
         let block = |sensors: &[Response]| {
             let all: Vec<Cow<'_, [f64]>> = sensors.iter().flat_map(|sensor| lists(sensor, with_uncertainty)).collect();
             let mut found = weights.gathered(&all.iter().map(|list| &list[..]).collect::<Vec<_>>()).into_iter();
-            let narrow = |wall: Vec<f64>| wall.into_iter().map(|e| e as f32).collect();
+            let narrow = |wall: Vec<f64>| wall.into_iter().map(bf16::from_f64).collect();
             let one = |sensor: &Response| {
                 let value = found.next().expect("a list has its sums");
                 let count = if with_uncertainty { sensor.walls.len() } else { 0 };

@@ -12,14 +12,15 @@ use crate::compute::room::beam::Beam;
 use crate::compute::room::radiosity::Radiosity;
 use crate::study::scene::Scene;
 use glam::DVec3;
+use half::bf16;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Maximum distance between the direction of a beam and one of these directions at which the latter is used: a
 /// millimetre on the floor of a room. The solar disc itself is seen in the direction of the beam. \[rad\]
 const SAME: f64 = 3e-4;
-/// Maximum number of values that are stored: enough for 3,400 sun positions at 96 sensors.
-const MOST_NUMBERS: usize = 4_000_000;
+/// Maximum memory of the beams that are stored: enough for 3,400 sun positions at 96 sensors. \[bytes\]
+const MOST: usize = 10_000_000;
 /// Approximate number of sun positions of a year.
 const SUNS: usize = 4500;
 /// Factors that mirror a direction at the planes along the aperture's axes.
@@ -38,9 +39,10 @@ pub(crate) struct UnitBeams {
 /// Interreflected light of a beam of 1 lm at the sensors.
 pub(crate) struct UnitBeam {
     /// Illuminances sensor by sensor: after two reflections or more, their uncertainty by the position of the beam
-    /// within a patch, after one reflection with the beam's sharp outline; then the differences between the fine and
-    /// the coarse mesh. \[lx/lm\]
+    /// within a patch, after one reflection with the beam's sharp outline. \[lx/lm\]
     numbers: Vec<f32>,
+    /// Differences between the fine and the coarse mesh, sensor by sensor, wall by wall. \[lx/lm\]
+    walls: Vec<bf16>,
     /// Patches of the room that the beam lights, with their illuminances. \[lx/lm\]
     patches: Vec<(u32, f32)>,
 }
@@ -72,7 +74,9 @@ impl UnitBeams {
 
     /// Returns the memory that responses and beams take once the beams of a year are stored. \[bytes\]
     pub fn bytes(&self) -> usize {
-        self.responses.bytes() + MOST_NUMBERS.min(SUNS * self.responses.numbers()) * size_of::<f32>()
+        let dark = self.responses.dark();
+        let one = 3 * dark.values.len() * size_of::<f32>() + dark.walls.len() * size_of::<bf16>();
+        self.responses.bytes() + MOST.min(SUNS * one)
     }
 
     /// Returns the responses of the sensors to beams of any direction.
@@ -99,7 +103,7 @@ impl UnitBeams {
         }
         let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, &self.responses));
         let mut known = known();
-        if known.len() * unit.numbers.len() < MOST_NUMBERS {
+        if known.len() * unit.bytes() < MOST {
             known.insert(key, Arc::clone(&unit));
         }
         Some(unit)
@@ -119,10 +123,15 @@ impl UnitBeam {
         let mut sharp = vec![0.0; scene.sensors.len()];
         beam.outlines(mesh).iter().for_each(|outline| outline.add_light(mesh, &scene.sensors, &mut sharp));
         let numbers = light.values.iter().copied().chain(light.blur.iter().copied()).chain(sharp).map(|e| e as f32);
-        let numbers = numbers.chain(light.columns.iter().copied()).collect();
+        let walls = light.walls.iter().map(|&e| bf16::from_f32(e)).collect();
         let lit = direct.iter().enumerate().filter(|(_, e)| **e != 0.0);
         let patches = lit.map(|(k, e)| (u32::try_from(k).unwrap_or(u32::MAX), *e as f32)).collect();
-        Self { numbers, patches }
+        Self { numbers: numbers.collect(), walls, patches }
+    }
+
+    /// Returns the memory that the illuminances at the sensors take. \[bytes\]
+    fn bytes(&self) -> usize {
+        size_of_val(&self.numbers[..]) + size_of_val(&self.walls[..])
     }
 }
 
@@ -143,8 +152,8 @@ impl Together {
         add(&mut self.light.values, &unit.numbers[..count]);
         add(&mut self.light.blur, &unit.numbers[count..2 * count]);
         add(&mut self.sharp, &unit.numbers[2 * count..3 * count]);
-        let (columns, flux) = (&mut self.light.columns, flux as f32);
-        wide(|| columns.iter_mut().zip(&unit.numbers[3 * count..]).for_each(|(sum, e)| *sum += flux * e));
+        let (walls, flux) = (&mut self.light.walls, flux as f32);
+        wide(|| walls.iter_mut().zip(&unit.walls).for_each(|(sum, e)| *sum += flux * f32::from(*e)));
         for &(k, e) in &unit.patches {
             self.direct[k as usize] += f64::from(flux * e);
         }
@@ -157,6 +166,6 @@ impl Together {
         add(&mut self.light.values, &light.values);
         add(&mut self.light.blur, &light.blur);
         add(&mut self.direct, direct);
-        self.light.columns.iter_mut().zip(&light.columns).for_each(|(sum, e)| *sum += e);
+        self.light.walls.iter_mut().zip(&light.walls).for_each(|(sum, e)| *sum += e);
     }
 }

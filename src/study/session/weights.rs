@@ -3,6 +3,7 @@
 use super::bytes::of_rows;
 use crate::compute::room::mesh::{Mesh, Wall};
 use crate::compute::room::radiosity::Radiosity;
+use half::bf16;
 use std::ops::Range;
 
 /// Number of sensors whose responses are computed together, by one matrix product.
@@ -13,8 +14,8 @@ pub(crate) struct Response {
     /// Interreflected illuminance per illuminance of each patch before interreflection. \[lx per lx\]
     pub value: Vec<f64>,
     /// Differences of these between the fine and the coarse mesh, wall by wall; only the uncertainty depends on them, so
-    /// that single precision is enough. \[lx per lx\]
-    pub walls: Vec<Vec<f32>>,
+    /// that two digits are enough. \[lx per lx\]
+    pub walls: Vec<Vec<bf16>>,
 }
 
 impl Response {
@@ -29,7 +30,7 @@ pub(crate) struct ByCells {
     pub value: Vec<Vec<f64>>,
     /// Differences of these illuminances between the fine and the coarse mesh, sensor by sensor, wall by wall; no
     /// walls where not requested. \[lx per cd/m²\]
-    pub walls: Vec<Vec<Vec<f32>>>,
+    pub walls: Vec<Vec<Vec<bf16>>>,
 }
 
 impl ByCells {
