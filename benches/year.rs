@@ -68,12 +68,13 @@ fn errors() {
             let scene = Scene::resolve(&moment, base, &*LIBRARY).expect("the moment can be resolved");
             let room = SESSION.room(&scene, &Silent).expect("a room");
             let places = year.light.places;
-            let mean = year.light.values.row(row).iter().sum::<f64>() / places as f64;
+            let [own, errors] = [&year.light.values, &year.light.errors].map(|table| table.row(row));
+            let mean = own.iter().map(|&e| f64::from(e)).sum::<f64>() / places as f64;
             for (s, sensor) in room.sensors.iter().enumerate() {
                 let scale = sensor.total().value.max(0.05 * mean).max(1e-9);
-                let off = (year.light.values.row(row)[s] - sensor.total().value) / scale;
+                let off = (f64::from(own[s]) - sensor.total().value) / scale;
                 worst = worst.max(off.abs());
-                stated = stated.max(year.light.errors.row(row)[s] / scale);
+                stated = stated.max(f64::from(errors[s]) / scale);
                 squares += off * off;
                 count += 1.0;
             }

@@ -238,7 +238,7 @@ fn csv(year: &Year) -> String {
         let tables = [Some(&year.light.values), Some(&year.light.errors), sun];
         for value in tables.into_iter().flatten().flat_map(|table| table.row(row)) {
             text.push(',');
-            text.push_str(&number(*value));
+            text.push_str(&number((*value).into()));
         }
         if let Some(dgp) = dgp {
             // Empty outside occupied hours and when dark.

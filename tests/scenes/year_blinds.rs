@@ -104,7 +104,7 @@ fn lm_83_closes_openings_while_the_sun_is_on_the_desks() {
         seen.push(closed);
         let room = case.room(row, states(closed));
         for (s, sensor) in room.sensors.iter().enumerate() {
-            let (own, error) = (lm83.values.row(row)[s], lm83.errors.row(row)[s]);
+            let [own, error] = [&lm83.values, &lm83.errors].map(|table| f64::from(table.row(row)[s]));
             let moment = sensor.total();
             let off = (own - moment.value).abs();
             assert!(off <= error + moment.error + 2e-3 * moment.value, "row {row}: {own} ± {error}, {moment:?}");

@@ -64,7 +64,7 @@ fn hours_are_moments(name: &str, text: &str, library: &dyn SystemLibrary, [slack
         assert!(mean > 1.0, "{name}, {time}: {mean} lx");
         let mut worst: f64 = 0.0;
         for (s, sensor) in room.sensors.iter().enumerate() {
-            let (own, error) = (year.light.values.row(row)[s], year.light.errors.row(row)[s]);
+            let [own, error] = [&year.light.values, &year.light.errors].map(|table| f64::from(table.row(row)[s]));
             let moment = sensor.total().value;
             let off = (own - moment).abs();
             worst = worst.max(off / moment.max(0.05 * mean));

@@ -114,8 +114,8 @@ fn a_click_on_an_hour_shows_it_everywhere_and_keys_go_on_from_there() {
     assert!(!app.shell.results.room.stale, "{:?}", app.shell.results.room.error);
     let row = &annual.year.light.values.row(step)[..4];
     for (place, own) in row.iter().enumerate() {
-        let total = room.total(place).value;
-        assert!((total / own - 1.0).abs() < 2e-3 && *own > 100.0, "{place}: {total} {own}");
+        let (total, own) = (room.total(place).value, f64::from(*own));
+        assert!((total / own - 1.0).abs() < 2e-3 && own > 100.0, "{place}: {total} {own}");
     }
     // The next day by the arrow key, the next hour by the other, while the map has the keyboard.
     apply(&mut harness, Command::Maximise(Some(YEAR)));

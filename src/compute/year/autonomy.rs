@@ -75,8 +75,8 @@ impl Autonomy {
 }
 
 /// Adds `of(E)` of the illuminance E \[lx\] of every point, given in `row`, to the point's entry of `sums`.
-fn add(sums: &mut [f64], row: &[f64], of: impl Fn(f64) -> f64) {
-    wide(|| sums.iter_mut().zip(row).for_each(|(sum, e)| *sum += of(*e)));
+fn add(sums: &mut [f64], row: &[f32], of: impl Fn(f64) -> f64) {
+    wide(|| sums.iter_mut().zip(row).for_each(|(sum, e)| *sum += of(f64::from(*e))));
 }
 
 fn one_if(yes: bool) -> f64 {

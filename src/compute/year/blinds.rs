@@ -97,7 +97,7 @@ impl Blinds {
     /// unsure steps: −1 counts them as dark with all blinds open (lower limit), 1 as lit with all blinds closed (upper
     /// limit), 0 uses them as given.
     pub fn of(steps: &[Step], light: Light<'_>, worked: &[Worked], length: f64, sign: f64) -> Self {
-        let unsure = vec![if sign < 0.0 { 0.0 } else { f64::MAX }; light.places()];
+        let unsure = vec![if sign < 0.0 { 0.0 } else { f32::MAX }; light.places()];
         let mut shifted = StepTable::zeros(steps.len(), light.places(), 0);
         for (step, one) in worked.iter().enumerate() {
             shifted.set(step, if one.unsure && sign != 0.0 { &unsure } else { light.row(step) });

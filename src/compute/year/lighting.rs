@@ -83,9 +83,10 @@ impl Energy {
 impl Lamps {
     /// Computes the power per floor area in one step; `light`: daylight illuminance of every calculation point \[lx\].
     /// \[W/m²\]
-    pub fn watts(&self, occupied: bool, light: &[f64]) -> f64 {
+    pub fn watts<T: Copy + Into<f64>>(&self, occupied: bool, light: &[T]) -> f64 {
         let zone = |zone: &Zone| {
-            let reading = zone.places.iter().map(|&place| light[place]).sum::<f64>() / zone.places.len().max(1) as f64;
+            let reading =
+                zone.places.iter().map(|&place| light[place].into()).sum::<f64>() / zone.places.len().max(1) as f64;
             let open = (1.0 - reading / self.target).max(0.0);
             let part = if occupied { self.control.power(open) } else { 0.0 };
             zone.share * (part * self.power + if part == 0.0 { self.standby } else { 0.0 })

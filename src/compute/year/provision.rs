@@ -84,7 +84,7 @@ impl Provision {
             let mut widely = [0_usize; 2 * LEVELS.len()];
             for (often, e) in often.iter_mut().zip(light.row(k)) {
                 for (n, (limit, _)) in asked.iter().enumerate() {
-                    let reaches = usize::from(e >= limit);
+                    let reaches = usize::from(f64::from(*e) >= *limit);
                     often[n] += reaches;
                     widely[n] += reaches;
                 }

@@ -98,7 +98,7 @@ impl Grouping {
         let scale = 1.0 / (steps * self.zones.len().max(1)) as f64;
         for (row, &k) in year.chosen.iter().enumerate().filter(|(_, k)| counts(**k)) {
             for (e, zone) in year.light.values.row(row).iter().zip(&self.zones) {
-                parts.values[self.times[k] * self.names.len() + zone] += scale * of(*e);
+                parts.values[self.times[k] * self.names.len() + zone] += scale * of((*e).into());
             }
         }
         parts

@@ -75,7 +75,7 @@ pub(super) fn dgp(
             }
             let [values, errors] = [&light.values, &light.errors].map(|table| &table.row(row)[settings.sensors..]);
             let vertical: Vec<Estimate> =
-                values.iter().zip(errors).map(|(e, error)| Estimate::new(*e, *error)).collect();
+                values.iter().zip(errors).map(|(e, error)| Estimate::new((*e).into(), (*error).into())).collect();
             let glare = engine.at(question, chosen[row], &vertical)?;
             progress.advance("glare", done.fetch_add(1, Ordering::Relaxed) + 1, total);
             Ok((row, glare))

@@ -55,7 +55,11 @@ pub fn day(year: &Year, date: Date) -> Option<Day> {
         }
         let [values, errors] = [&year.light.values, &year.light.errors].map(|table| &table.row(row)[..sensors]);
         let watts = |sign: f64| {
-            let light: Vec<f64> = values.iter().zip(errors).map(|(e, error)| (e + sign * error).max(0.0)).collect();
+            let light: Vec<f64> = values
+                .iter()
+                .zip(errors)
+                .map(|(e, error)| (f64::from(*e) + sign * f64::from(*error)).max(0.0))
+                .collect();
             lamps.watts(step.occupied, &light)
         };
         let time = step.time;

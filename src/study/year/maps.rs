@@ -71,7 +71,7 @@ pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
 /// Returns the value of a quantity in a computed step, in the unit of the map. `k`: index of the step; `row`: its index
 /// among the chosen ones; `ranks`: positions of the states in their order.
 fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
-    let own = year.light.values.row(row);
+    let own = numbers(year.light.values.row(row));
     let (sensors, step) = (year.settings.sensors, &year.steps.list[k]);
     match shows {
         Shows::Mean => own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64,
@@ -93,7 +93,7 @@ fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f6
 /// `step`: index of the step in the year.
 pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     let row = year.chosen.binary_search(&step).ok()?;
-    let own = year.light.errors.row(row);
+    let own = numbers(year.light.errors.row(row));
     let sensors = year.settings.sensors;
     match shows {
         // Errors of neighbouring sensors are correlated: they are assumed to add up.
@@ -102,6 +102,10 @@ pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
         Shows::Dgps(eye) => own.get(sensors + eye).map(|error| dgps(*error) - dgps(0.0)),
         Shows::State(_) | Shows::Lighting | Shows::DirectNormal | Shows::DiffuseHorizontal => None,
     }
+}
+
+fn numbers(row: &[f32]) -> Vec<f64> {
+    row.iter().map(|&value| value.into()).collect()
 }
 
 /// Returns an interval of the map with a value, from the middle of the step, to whole minutes.
