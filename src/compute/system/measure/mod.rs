@@ -141,6 +141,16 @@ pub trait OpticalModel: Send + Sync {
     /// Returns [`Cancelled`] if `progress` is cancelled.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled>;
 
+    /// Returns the data of [`Self::measure`] for both sides, for systems that keep light in its cell and act on all
+    /// azimuths alike, with one coefficient for each cell instead of one for each pair of cells; `None` for other
+    /// systems. The incident cells of `setting` are the emergent ones.
+    ///
+    /// # Errors
+    /// Returns [`Cancelled`] if `progress` is cancelled.
+    fn by_cell(&self, _setting: &Setting<'_>, _progress: &dyn Progress) -> Result<Option<[OneSide; 2]>, Cancelled> {
+        Ok(None)
+    }
+
     /// Computes BSDF data of both sides on the cells of `setting`, as one band (visible or solar), and their quality.
     /// Regular transmission and reflection are stored separately where they depend on the polar angle only; otherwise
     /// they are spread over their cells.
@@ -235,17 +245,20 @@ impl Quality {
     }
 }
 
+impl OneSide {
+    /// Creates data with every value 0, for `n` incident cells and `count` coefficients of transmission, and as many of
+    /// reflection.
+    pub fn dark(n: usize, count: usize) -> Self {
+        let [transmitted, reflected] = [vec![0.0; count], vec![0.0; count]];
+        Self { transmitted, reflected, absorbed: vec![0.0; n], error: vec![0.0; n] }
+    }
+}
+
 impl Measured {
     /// Creates data on the cells of a setting with every value 0.
     pub fn dark(setting: &Setting<'_>) -> Self {
         let (n, m) = (setting.incident.len(), setting.emergent.len());
-        let seen = || OneSide {
-            transmitted: vec![0.0; n * m],
-            reflected: vec![0.0; n * m],
-            absorbed: vec![0.0; n],
-            error: vec![0.0; n],
-        };
-        let [front, back] = [seen(), seen()];
+        let [front, back] = [OneSide::dark(n, n * m), OneSide::dark(n, n * m)];
         Self { incident: setting.incident.clone(), emergent: setting.emergent.clone(), front, back }
     }
 

@@ -12,7 +12,7 @@ use crate::compute::direction::{Dir, Facade};
 use crate::compute::estimate::{Cancelled, Progress};
 use crate::compute::quadrature::gauss_legendre;
 use crate::compute::system::measure::{
-    Beam, Measured, OpticalModel, Quality, ScatteredLight, Setting, Side, Structure,
+    Beam, Measured, OneSide, OpticalModel, Quality, ScatteredLight, Setting, Side, Structure,
 };
 use std::f64::consts::PI;
 
@@ -83,10 +83,31 @@ impl OpticalModel for Panes {
 
     /// Computes patch-averaged data: light of an incident cell reaches the emergent cells that overlap it.
     fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
-        let mut measured = Measured::dark(setting);
+        let (mut measured, m) = (Measured::dark(setting), setting.emergent.len());
+        self.add_to([&mut measured.front, &mut measured.back], |i, o| i * m + o, setting, progress)?;
+        Ok(measured)
+    }
+
+    fn by_cell(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Option<[OneSide; 2]>, Cancelled> {
+        let n = setting.incident.len();
+        let [mut front, mut back] = [OneSide::dark(n, n), OneSide::dark(n, n)];
+        self.add_to([&mut front, &mut back], |i, _| i, setting, progress)?;
+        Ok(Some([front, back]))
+    }
+}
+
+impl Panes {
+    /// Adds the data on the cells of `setting` to those of light from outside and from inside. `place`: index of the
+    /// coefficient of an incident and an emergent cell that overlap.
+    fn add_to(
+        &self,
+        [front, back]: [&mut OneSide; 2],
+        place: impl Fn(usize, usize) -> usize,
+        setting: &Setting<'_>,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let rules = ORDERS.map(gauss_legendre);
         let emergent: Vec<Cell> = setting.emergent.cells().collect();
-        let m = emergent.len();
         let n = setting.incident.len();
         let mut known = Known { panes: self, rules, values: vec![] };
         for (i, cell) in setting.incident.cells().enumerate() {
@@ -96,13 +117,6 @@ impl OpticalModel for Panes {
             let whole = cell.projected_solid_angle();
             // Light keeps its through direction, so that only cells that overlap exchange any: with the overlap Δφ by
             // θ₁ … θ₂, q = Δφ ∫ τ sinθ cosθ dθ / (PΩᵢ PΩₒ).
-            let add = |measured: &mut Measured, o: usize, width: f64, mean: &Share, weight: f64| {
-                let q = width / (whole * weight);
-                measured.front.transmitted[i * m + o] += mean.transmitted * q;
-                measured.back.transmitted[i * m + o] += mean.transmitted * q;
-                measured.front.reflected[i * m + o] += mean.reflected_front * q;
-                measured.back.reflected[i * m + o] += mean.reflected_back * q;
-            };
             for (o, out) in emergent.iter().enumerate() {
                 let (from, to) = (cell.theta_min.max(out.theta_min), cell.theta_max.min(out.theta_max));
                 // Rings that only touch, and below azimuths that do, differ by rounding.
@@ -112,14 +126,17 @@ impl OpticalModel for Panes {
                 let width = overlap(&cell, out);
                 if width > 1e-12 {
                     let ([mean, _], _) = known.integral(from, to);
-                    add(&mut measured, o, width, &mean, out.projected_solid_angle());
+                    let (q, k) = (width / (whole * out.projected_solid_angle()), place(i, o));
+                    front.transmitted[k] += mean.transmitted * q;
+                    back.transmitted[k] += mean.transmitted * q;
+                    front.reflected[k] += mean.reflected_front * q;
+                    back.reflected[k] += mean.reflected_back * q;
                 }
             }
             // Absorbed and error need no azimuth: its width falls out of means over the whole cell.
             let ([mean, coarse], weight) = known.integral(cell.theta_min, cell.theta_max);
-            for side in Side::BOTH {
+            for (seen, side) in [&mut *front, &mut *back].into_iter().zip(Side::BOTH) {
                 let reflected = |s: &Share| if side == Side::Front { s.reflected_front } else { s.reflected_back };
-                let seen = measured.seen_mut(side);
                 // The part neither transmitted nor reflected; clear panes leave 0, and rounding.
                 seen.absorbed[i] = (weight - mean.transmitted - reflected(&mean)).max(0.0) / weight;
                 let difference = (mean.transmitted - coarse.transmitted).abs();
@@ -127,7 +144,7 @@ impl OpticalModel for Panes {
             }
             progress.advance("goniophotometer", i + 1, n);
         }
-        Ok(measured)
+        Ok(())
     }
 }
 

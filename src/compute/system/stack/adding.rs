@@ -47,10 +47,11 @@ impl OpticalModel for Stack {
             let cells = if parts == 1 { base.clone() } else { base.refined(parts) };
             let mut whole = None;
             if parts == 1 {
+                let weight = cells.projected_solid_angles();
                 let layers = self.on_cells(&cells, setting, progress).collect::<Result<Vec<_>, _>>()?;
                 mirror = MIRRORS.into_iter().find(|mirror| {
                     mirror_images(&cells, mirror)
-                        .is_some_and(|map| layers.iter().all(|layer| Halves::fits(&map, layer)))
+                        .is_some_and(|map| layers.iter().all(|layer| layer.fits(&map, &weight)))
                 });
                 whole = sum(&cells, mirror, layers.into_iter().map(Ok), setting)?;
             } else if mirror.is_some() {
@@ -142,7 +143,7 @@ impl Stack {
         cells: &'a RingBasis,
         setting: &'a Setting<'_>,
         progress: &'a dyn Progress,
-    ) -> impl Iterator<Item = Result<Measured, Cancelled>> + 'a {
+    ) -> impl Iterator<Item = Result<Data, Cancelled>> + 'a {
         let count = self.layers.len();
         let share = Setting {
             incident: cells,
@@ -152,8 +153,32 @@ impl Stack {
         };
         self.layers.iter().enumerate().map(move |(k, layer)| {
             progress.advance("layers", k, count);
-            if progress.cancelled() { Err(Cancelled) } else { layer.measure(&share, progress) }
+            if progress.cancelled() {
+                return Err(Cancelled);
+            }
+            Ok(match layer.by_cell(&share, progress)? {
+                Some(sides) => Data { sides, by_cell: true },
+                None => {
+                    let Measured { front, back, .. } = layer.measure(&share, progress)?;
+                    Data { sides: [front, back], by_cell: false }
+                }
+            })
         })
+    }
+}
+
+/// Data of a layer on the cells of a stack, for light from outside and from inside.
+struct Data {
+    sides: [OneSide; 2],
+    /// Whether they have a coefficient for each cell ([`OpticalModel::by_cell`]) instead of one for each pair.
+    by_cell: bool,
+}
+
+impl Data {
+    /// Whether the layer is symmetric for the mirror images `image` of the cells, which have the same polar angles.
+    /// `weight`: projected solid angles of the cells. \[sr\]
+    fn fits(&self, image: &[usize], weight: &[f64]) -> bool {
+        self.by_cell || Halves::fits(image, weight, &self.sides)
     }
 }
 
@@ -169,19 +194,20 @@ const MIRRORS: [Mirror; 2] = [|phi| PI - phi, |phi| -phi];
 fn sum(
     cells: &RingBasis,
     mirror: Option<Mirror>,
-    layers: impl Iterator<Item = Result<Measured, Cancelled>>,
+    layers: impl Iterator<Item = Result<Data, Cancelled>>,
     setting: &Setting<'_>,
 ) -> Result<Option<Measured>, Cancelled> {
     let map = mirror.and_then(|mirror| mirror_images(cells, mirror));
     let halves = map.as_ref().map_or_else(|| Halves::none(cells.len()), |map| Halves::new(map));
     let turn = turned(cells).expect("chosen so that it can be turned");
+    let weight = cells.projected_solid_angles();
     let mut sum: Option<Layered> = None;
-    for measured in layers {
-        let measured = measured?;
-        if map.as_ref().is_some_and(|map| !Halves::fits(map, &measured)) {
+    for data in layers {
+        let data = data?;
+        if map.as_ref().is_some_and(|map| !data.fits(map, &weight)) {
             return Ok(None);
         }
-        let next = Layered::new(measured, &turn, &halves);
+        let next = Layered::new(data, &weight, &turn, &halves);
         sum = Some(match sum {
             None => next,
             Some(outer) => outer.before(next),
@@ -213,13 +239,19 @@ struct Matrices {
 }
 
 impl Layered {
-    /// Creates the flux matrices of a layer from its data; `turn`: counterpart of each cell by a rotation of 180° about
-    /// the normal.
-    fn new(Measured { emergent, front: f, back: b, .. }: Measured, turn: &[usize], halves: &Halves) -> Self {
+    /// Creates the flux matrices of a layer from its data; `weight`: projected solid angles of the cells \[sr\]; `turn`:
+    /// counterpart of each cell by a rotation of 180° about the normal.
+    fn new(data: Data, weight: &[f64], turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
-        let weight = emergent.projected_solid_angles();
-        let front = |q: Vec<f64>| halves.matrix(|o, i| q[i * n + o] * weight[o]);
-        let back = |q: Vec<f64>| halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]);
+        let Data { sides: [f, b], by_cell } = data;
+        let front = |q: Vec<f64>| match by_cell {
+            true => halves.diagonal(|k| q[k] * weight[k]),
+            false => halves.matrix(|o, i| q[i * n + o] * weight[o]),
+        };
+        let back = |q: Vec<f64>| match by_cell {
+            true => halves.diagonal(|k| q[turn[k]] * weight[k]),
+            false => halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]),
+        };
         let own = |list: &[f64]| halves.list(|k| list[k]);
         let named = |list: &[f64]| halves.list(|k| list[turn[k]]);
         let [[t, t_odd], [t_back, t_back_odd]] = [front(f.transmitted), back(b.transmitted)];

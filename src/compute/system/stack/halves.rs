@@ -3,7 +3,7 @@
 //! Light is divided into an even part (equal in mirror-image cells) and an odd one (opposite in them). A symmetric
 //! system does not mix the two, so that products and inverses of matrices cost a quarter.
 
-use crate::compute::system::measure::Measured;
+use crate::compute::system::measure::OneSide;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
@@ -46,11 +46,10 @@ impl Halves {
         Self::new(&(0..n).collect::<Vec<_>>())
     }
 
-    /// Whether the data of a layer are symmetric for the mirror images `image` of the cells.
-    pub fn fits(image: &[usize], measured: &Measured) -> bool {
+    /// Whether the data of a layer, for light from outside and from inside, are symmetric for the mirror images `image`
+    /// of the cells. `weight`: projected solid angles of the cells. \[sr\]
+    pub fn fits(image: &[usize], weight: &[f64], [front, back]: &[OneSide; 2]) -> bool {
         let n = image.len();
-        let weight = measured.emergent.projected_solid_angles();
-        let [front, back] = [&measured.front, &measured.back];
         [&front.transmitted, &front.reflected, &back.transmitted, &back.reflected].into_iter().all(|q| {
             (0..n).filter(|&i| i <= image[i]).all(|i| {
                 let unlike = |o: usize| (q[i * n + o] - q[image[i] * n + image[o]]).abs() * weight[o];
@@ -61,12 +60,22 @@ impl Halves {
 
     /// Returns the even and the odd part of a matrix given by its entries `at(row, column)`.
     pub fn matrix(&self, at: impl Fn(usize, usize) -> f64) -> [Part; 2] {
-        let sums = |row: usize, column: usize, sign: f64| {
-            let ([a, b], [c, d]) = (self.members[row], self.members[column]);
-            (at(a, c) + at(b, d) + sign * (at(a, d) + at(b, c))) * 0.5 * self.factor(row) * self.factor(column)
-        };
         let (n, m) = (self.members.len(), self.pairs);
-        [Part::new(n, |r, c| sums(r, c, 1.0)), Part::new(m, |r, c| sums(r, c, -1.0))]
+        [Part::new(n, |r, c| self.sum(&at, r, c, 1.0)), Part::new(m, |r, c| self.sum(&at, r, c, -1.0))]
+    }
+
+    /// Returns the even and the odd part of a matrix given by its diagonal `at(row)`.
+    pub fn diagonal(&self, at: impl Fn(usize) -> f64) -> [Part; 2] {
+        let whole = |row: usize, column: usize| if row == column { at(row) } else { 0.0 };
+        let part = |n: usize, sign: f64| Part::Diagonal((0..n).map(|k| self.sum(&whole, k, k, sign)).collect());
+        [part(self.members.len(), 1.0), part(self.pairs, -1.0)]
+    }
+
+    /// Returns the entry of a pair (`row`) for light of another (`column`) in the even (`sign` 1) or odd part (−1) of
+    /// the matrix with the entries `at(row, column)`.
+    fn sum(&self, at: &impl Fn(usize, usize) -> f64, row: usize, column: usize, sign: f64) -> f64 {
+        let ([a, b], [c, d]) = (self.members[row], self.members[column]);
+        (at(a, c) + at(b, d) + sign * (at(a, d) + at(b, c))) * 0.5 * self.factor(row) * self.factor(column)
     }
 
     /// Returns the normalisation of a pair: 1, or 1/√2 for a cell that is its own image, which sums over pairs count
