@@ -1,6 +1,6 @@
 //! The window without a display: driven by labels, keys and scripted services, checked by what it then knows and says.
 
-use crate::driven::{frames, settle};
+use crate::driven::{frames, settle, step_until};
 use cfs::app::App;
 use cfs::app::command::Command;
 use cfs::app::display::theme::ThemeChoice;
@@ -188,8 +188,9 @@ fn a_later_hour_gives_another_sky_and_another_room_job() {
 #[test]
 fn a_slow_job_never_holds_a_frame_and_is_withdrawn_by_the_next_change() {
     let (mut harness, engine) = window();
+    let before = engine.started.load(Ordering::SeqCst);
     harness.state_mut().shell.state.document.scene.room.reflectance.floor = SLOW;
-    harness.run_steps(2);
+    step_until(&mut harness, "the slow job runs", |_| engine.started.load(Ordering::SeqCst) > before);
     assert!(harness.state().busy() && harness.state().shell.results.room.stale);
     let start = Instant::now();
     let ctx = harness.ctx.clone();
@@ -197,7 +198,7 @@ fn a_slow_job_never_holds_a_frame_and_is_withdrawn_by_the_next_change() {
     assert!(start.elapsed() < Duration::from_millis(100), "{:?}", start.elapsed());
     harness.state_mut().shell.state.document.scene.room.reflectance.floor = 0.3;
     settle(&mut harness);
-    assert_eq!(engine.withdrawn.load(Ordering::SeqCst), 1);
+    step_until(&mut harness, "the slow job ends", |_| engine.withdrawn.load(Ordering::SeqCst) == 1);
     assert!(!harness.state().shell.results.room.stale);
 }
 
