@@ -122,11 +122,11 @@ mod tests {
     #[test]
     fn borders_belong_to_the_sides_that_the_definitions_say() {
         let steps = steps(&[true; 5]);
-        let values = [99.9, 100.0, 300.0, 3000.0, 3000.1];
+        let values = [99.875, 100.0, 300.0, 3000.0, 3000.125];
         let figures = Autonomy::of(&steps, StepTable::of_rows(1, &values).unwrap().columns(0..1).unwrap());
         assert_eq!((figures.udi_n[0], figures.udi_s[0], figures.udi_a[0], figures.udi_x[0]), (0.2, 0.2, 0.4, 0.2));
         assert_eq!((figures.da_300[0], figures.da_500[0], figures.sda_300_50), (0.6, 0.4, 1.0));
-        let expected = (99.9 / 300.0 + 1.0 / 3.0 + 3.0) / 5.0;
+        let expected = (99.875 / 300.0 + 1.0 / 3.0 + 3.0) / 5.0;
         assert!((figures.cda_300[0] - expected).abs() < 1e-12);
     }
 
