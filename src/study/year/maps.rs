@@ -71,16 +71,16 @@ pub(super) fn states(device: &Device) -> (Vec<usize>, Vec<String>) {
 /// Returns the value of a quantity in a computed step, in the unit of the map. `k`: index of the step; `row`: its index
 /// among the chosen ones; `ranks`: positions of the states in their order.
 fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f64 {
-    let own = numbers(year.light.values.row(row));
+    let own = year.light.values.row(row);
     let (sensors, step) = (year.settings.sensors, &year.steps.list[k]);
     match shows {
-        Shows::Mean => own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64,
-        Shows::Sensor(place) => own.get(place).copied().unwrap_or(f64::NAN),
+        Shows::Mean => mean(&own[..sensors]),
+        Shows::Sensor(place) => own.get(place).map_or(f64::NAN, |value| f64::from(*value)),
         Shows::State(moving) => {
             let place = year.states[k].get(moving).and_then(|state| ranks.get(*state));
             place.map_or(f64::NAN, |place| *place as f64)
         }
-        Shows::Dgps(eye) => own.get(sensors + eye).map_or(f64::NAN, |vertical| dgps(*vertical)),
+        Shows::Dgps(eye) => own.get(sensors + eye).map_or(f64::NAN, |vertical| dgps(f64::from(*vertical))),
         Shows::Lighting => {
             year.settings.lamps.as_ref().map_or(f64::NAN, |lamps| lamps.watts(step.occupied, &own[..sensors]))
         }
@@ -93,19 +93,19 @@ fn value(year: &Year, shows: Shows, ranks: &[usize], k: usize, row: usize) -> f6
 /// `step`: index of the step in the year.
 pub fn error(year: &Year, shows: Shows, step: usize) -> Option<f64> {
     let row = year.chosen.binary_search(&step).ok()?;
-    let own = numbers(year.light.errors.row(row));
+    let own = year.light.errors.row(row);
     let sensors = year.settings.sensors;
     match shows {
         // Errors of neighbouring sensors are correlated: they are assumed to add up.
-        Shows::Mean => Some(own[..sensors].iter().sum::<f64>() / sensors.max(1) as f64),
-        Shows::Sensor(place) => own.get(place).copied(),
-        Shows::Dgps(eye) => own.get(sensors + eye).map(|error| dgps(*error) - dgps(0.0)),
+        Shows::Mean => Some(mean(&own[..sensors])),
+        Shows::Sensor(place) => own.get(place).map(|error| f64::from(*error)),
+        Shows::Dgps(eye) => own.get(sensors + eye).map(|error| dgps(f64::from(*error)) - dgps(0.0)),
         Shows::State(_) | Shows::Lighting | Shows::DirectNormal | Shows::DiffuseHorizontal => None,
     }
 }
 
-fn numbers(row: &[f32]) -> Vec<f64> {
-    row.iter().map(|&value| value.into()).collect()
+fn mean(row: &[f32]) -> f64 {
+    row.iter().map(|value| f64::from(*value)).sum::<f64>() / row.len().max(1) as f64
 }
 
 /// Returns an interval of the map with a value, from the middle of the step, to whole minutes.

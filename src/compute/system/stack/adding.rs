@@ -244,13 +244,15 @@ impl Layered {
     fn new(data: Data, weight: &[f64], turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
         let Data { sides: [f, b], by_cell } = data;
-        let front = |q: Vec<f64>| match by_cell {
-            true => halves.diagonal(|k| q[k] * weight[k]),
-            false => halves.matrix(|o, i| q[i * n + o] * weight[o]),
+        let front = |q: Vec<f64>| {
+            if by_cell { halves.diagonal(|k| q[k] * weight[k]) } else { halves.matrix(|o, i| q[i * n + o] * weight[o]) }
         };
-        let back = |q: Vec<f64>| match by_cell {
-            true => halves.diagonal(|k| q[turn[k]] * weight[k]),
-            false => halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o]),
+        let back = |q: Vec<f64>| {
+            if by_cell {
+                halves.diagonal(|k| q[turn[k]] * weight[k])
+            } else {
+                halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o])
+            }
         };
         let own = |list: &[f64]| halves.list(|k| list[k]);
         let named = |list: &[f64]| halves.list(|k| list[turn[k]]);

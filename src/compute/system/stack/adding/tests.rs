@@ -92,3 +92,34 @@ fn order_and_up_and_down_matter() {
     assert!(q(above, above) > 0.1 && q(above, below) < 1e-9);
     assert_eq!(made.shares(&made.front.transmitted).iter().copied().fold(0.0, f64::max), 0.0);
 }
+
+/// Panes that give their data by pairs of cells, as layers do that do not keep light in its cell.
+struct ByPairs(Panes);
+
+impl OpticalModel for ByPairs {
+    fn measure(&self, setting: &Setting<'_>, progress: &dyn Progress) -> Result<Measured, Cancelled> {
+        self.0.measure(setting, progress)
+    }
+
+    fn beams(&self, direction: Dir<Facade>, side: Side) -> Vec<Beam> {
+        self.0.beams(direction, side)
+    }
+
+    fn scattered(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
+        self.0.scattered(direction, side, emergent)
+    }
+}
+
+#[test]
+fn one_coefficient_for_each_cell_gives_what_the_pairs_of_cells_give() {
+    // Unlike on its two sides, so that they cannot be exchanged.
+    let coated = coated::CoatedPane { transmittance: 0.5, front: 0.1, back: 0.35 };
+    let panes = || Panes::equal(coated::Layer::Coated(coated), 1);
+    let [by_cell, by_pairs]: [Box<dyn OpticalModel>; 2] = [Box::new(panes()), Box::new(ByPairs(panes()))];
+    let cells = front_basis();
+    let setting = Setting { incident: &cells, emergent: &cells, error: 0.01, seed: 1 };
+    assert!(
+        by_cell.by_cell(&setting, &Silent).unwrap().is_some() && by_pairs.by_cell(&setting, &Silent).unwrap().is_none()
+    );
+    assert_eq!(measure(vec![by_cell, blind(40.0)], 1e-3), measure(vec![by_pairs, blind(40.0)], 1e-3));
+}
