@@ -11,8 +11,9 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
-/// Maximum number of decoded datasets that a connection holds in memory.
-const RECENT: usize = 32;
+/// Maximum number of decoded datasets that a connection holds in memory. Chosen: cost only; decoding takes milliseconds,
+/// and each may take megabytes.
+const RECENT: usize = 8;
 /// Position in the order of the catalogue of products that users add, after the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
 

@@ -45,6 +45,7 @@ pub mod luminaire_series;
 pub mod luminaire_set;
 mod luminaire_tiles;
 pub mod luminaires;
+mod models;
 pub mod moment;
 pub mod near_field;
 mod optical_model;

@@ -7,11 +7,12 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
+use super::models::Models;
 use super::outside::LitObstructions;
 use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, SystemModel, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Found, Product, Query};
-use crate::compute::btdf::{Btdf, Dataset, DescribedState};
+use crate::compute::btdf::{Btdf, Dataset};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use crate::formats::system_toml::is_system_file;
@@ -31,19 +32,14 @@ pub struct Library {
     catalogue_path: Option<PathBuf>,
     catalogue: Mutex<Option<Catalogue>>,
     described: Mutex<Descriptions>,
-    models: Mutex<ModelCache>,
+    models: Models,
     obstructions: LitObstructions,
 }
 
 /// Described systems, each with the hash of its input, its state, and the extent of its data.
 type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
-/// Optical models, each with the hash of its description, and its state.
-type ModelCache = VecDeque<((String, String), Option<SystemModel>)>;
 /// Maximum number of stored described systems: two moving products with 21 states each.
 const MOST_DESCRIBED: usize = 42;
-/// Maximum number of descriptions whose optical models are stored: of a ranking's hundred products those in progress,
-/// and as many as scenes and comparisons contain.
-const MOST_ANSWERING: usize = 6;
 
 /// Systems of a dataset file, valid as long as time and length of the file do not change.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
@@ -118,28 +114,8 @@ impl Library {
     /// `None` if there is no description, or if it names layers that are not available, so that only the data are
     /// known.
     pub fn model_of(&self, dataset: &Dataset) -> Option<SystemModel> {
-        let DescribedState { text, state } = dataset.described.as_ref()?;
-        let hash = blake3::hash(text.as_bytes()).to_hex().to_string();
-        let key = (hash, state.clone());
-        let mut list = self.models.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, model)) = list.iter().find(|(other, _)| *other == key) {
-            return model.clone();
-        }
-        drop(list);
-        let model = system_model_from_text(text, state, self);
-        list = self.models.lock().unwrap_or_else(PoisonError::into_inner);
-        // The oldest first.
-        let mut others: Vec<String> =
-            list.iter().map(|((hash, _), _)| hash.clone()).filter(|hash| *hash != key.0).collect();
-        others.dedup();
-        if others.len() >= MOST_ANSWERING {
-            list.retain(|((hash, _), _)| *hash != others[0]);
-        }
-        if list.len() >= MOST_DESCRIBED {
-            list.pop_front();
-        }
-        list.push_back((key, model.clone()));
-        model
+        let described = dataset.described.as_ref()?;
+        self.models.get(described, || system_model_from_text(&described.text, &described.state, self))
     }
 }
 

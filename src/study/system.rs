@@ -37,6 +37,11 @@ impl SystemModel {
         self.1.as_ref().map_or((&*self.0, SolarSource::Visible), |(model, source)| (&**model, *source))
     }
 
+    /// Returns the memory of the results that the models have cached. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.0.bytes() + self.1.as_ref().map_or(0, |(solar, _)| solar.bytes())
+    }
+
     /// Whether light from sky and ground may be computed with the optical model. If not, the data are used: where
     /// thousands of directions take too long, and where data separate regular transmission, which is more exact.
     pub fn answers_for_the_sky(&self) -> bool {

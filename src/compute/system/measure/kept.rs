@@ -5,7 +5,7 @@
 //! computing, a deadlock. So the result is computed in a separate pool, while the calling thread sleeps.
 
 use crate::compute::basis::RingBasis;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Maximum number of bases whose results are cached; the oldest is dropped first. Chosen: memory only, no effect on
 /// results.
@@ -28,6 +28,13 @@ impl<T: Send> Once<T> {
     }
 }
 
+impl<T> Once<T> {
+    /// Returns the memory of the result, which `of` counts; 0 before it is computed. \[bytes\]
+    pub fn bytes(&self, of: impl FnOnce(&T) -> usize) -> usize {
+        self.0.get().map_or(0, of)
+    }
+}
+
 /// Cache of results that depend on a division of the hemisphere into cells (a basis), one result per basis.
 pub struct Kept<T>(Mutex<Vec<(RingBasis, Arc<T>)>>);
 
@@ -42,13 +49,22 @@ impl<T> Kept<T> {
     pub const fn new() -> Self {
         Self(Mutex::new(Vec::new()))
     }
+
+    /// Returns the memory of all results, each of which `of` counts. \[bytes\]
+    pub fn bytes(&self, of: impl Fn(&T) -> usize) -> usize {
+        self.lock().iter().map(|(_, result)| of(result)).sum()
+    }
+
+    /// Locks the results, which are complete even if another thread has failed while it held the lock.
+    fn lock(&self) -> MutexGuard<'_, Vec<(RingBasis, Arc<T>)>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }
 
 impl<T: Send> Kept<T> {
     /// Returns the result for the basis `cells`, which the first call computes by `make`; other threads wait for it.
     pub fn get(&self, cells: &RingBasis, make: impl FnOnce() -> T + Send) -> Arc<T> {
-        // Cached results are complete even if another thread has failed while it held the lock.
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut kept = self.lock();
         if let Some((_, found)) = kept.iter().find(|(known, _)| known == cells) {
             return found.clone();
         }

@@ -220,6 +220,11 @@ pub trait OpticalModel: Send + Sync {
     fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.scattered(direction, side, emergent)
     }
+
+    /// Returns the memory of the results that are cached for further directions. \[bytes\]
+    fn bytes(&self) -> usize {
+        0
+    }
 }
 
 /// Quality of computed data: energy balance, reciprocity and estimated error.

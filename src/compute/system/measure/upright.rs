@@ -61,6 +61,10 @@ impl OpticalModel for Upright {
     fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.0.scattered_through(to_described(direction), side, &turned(emergent))
     }
+
+    fn bytes(&self) -> usize {
+        self.0.bytes()
+    }
 }
 
 /// Returns the cells of the described system: the rotated system at φ is the described one at φ + 90°, cell by cell.

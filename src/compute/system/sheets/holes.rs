@@ -2,7 +2,7 @@
 //! once and cached.
 
 use super::hole::Perforated;
-use super::walls::{Lit, Walls, measure_walls};
+use super::walls::{Walls, measure_walls};
 use crate::compute::basis::RingBasis;
 use crate::compute::direction::{Dir, Facade};
 use crate::compute::dot::add_scaled;
@@ -35,9 +35,10 @@ struct Solved {
 /// Light on the walls for light from each cell of a basis, computed when it is first needed.
 #[derive(Default)]
 struct Seen {
-    /// Light on the walls, indexed by division of the thickness (of [`DEPTH`]), then by kind of the leaving light
-    /// (transmitted, reflected), then by side.
-    ways: [[[Once<Lit>; 2]; 2]; 2],
+    /// Flux on every patch (column) for light of every cell (row), per flux on the sheet; indexed by division of the
+    /// thickness (of [`DEPTH`]), then by kind of the leaving light (transmitted, reflected), then by side. In single
+    /// precision: up to 0.8 million values each.
+    ways: [[[Once<Mat<f32>>; 2]; 2]; 2],
 }
 
 /// Light that the sheet scatters: q of transmitted and reflected light by emergent cell \[1/sr\], and the absorbed
@@ -83,7 +84,11 @@ impl Holes {
         let k = usize::from(side == Side::Back);
         let sent = |turned: bool, side: usize| {
             let way = &seen.ways[depth][usize::from(turned)][side];
-            product(&way.get(|| walls.lit(cells, Side::BOTH[side], turned)).walls, &exitance)
+            let lit = || {
+                let lit = walls.lit(cells, Side::BOTH[side], turned).walls;
+                Mat::from_fn(lit.nrows(), lit.ncols(), |cell, patch| lit[(cell, patch)] as f32)
+            };
+            product(way.get(lit), &exitance)
         };
         let face = self.sheet.reflectance[k];
         let solid = 1.0 - self.sheet.open();
@@ -97,7 +102,7 @@ impl Holes {
 }
 
 /// Returns the product of a matrix and a vector, summed column by column, since columns are contiguous in memory.
-fn product(matrix: &Mat<f64>, of: &[f64]) -> Vec<f64> {
+fn product<T: Copy + Into<f64>>(matrix: &Mat<T>, of: &[f64]) -> Vec<f64> {
     let mut sums = vec![0.0; matrix.nrows()];
     for (j, factor) in of.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
         add_scaled(&mut sums, matrix.col_as_slice(j), *factor);
@@ -131,6 +136,11 @@ impl OpticalModel for Holes {
         let difference = (t - share(&coarse.transmitted)).abs().max((r - share(&coarse.reflected)).abs());
         let missing = (1.0 - self.sheet.straight(direction) - t - r - fine.absorbed).abs();
         ScatteredLight { transmitted: fine.transmitted, reflected: fine.reflected, error: difference + missing }
+    }
+
+    fn bytes(&self) -> usize {
+        let one = |matrix: &Mat<f32>| size_of::<f32>() * matrix.nrows() * matrix.ncols();
+        self.seen.bytes(|seen| seen.ways.iter().flatten().flatten().map(|way| way.bytes(one)).sum())
     }
 }
 

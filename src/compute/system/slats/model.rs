@@ -25,7 +25,7 @@ use crate::compute::system::measure::{
 use glam::DVec3;
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_1_PI, PI};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 /// Optical model of an array of slats, with cached solutions of its section.
 pub struct SlatModel {
@@ -114,6 +114,11 @@ impl SlatModel {
         })
     }
 
+    /// Locks the cached lists of beams, which are complete even if another thread has failed while it held the lock.
+    fn known(&self) -> MutexGuard<'_, HashMap<Place, Arc<Vec<MirrorBeam>>>> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     fn has(&self, share: fn(Surface) -> f64) -> bool {
         // The edge of a solid slat is matt.
         let edge = (self.array.thickness() > 0.0).then(|| self.array.edge());
@@ -154,13 +159,11 @@ impl OpticalModel for SlatModel {
         self.beams_by(direction, |psi| {
             let place = (psi / (2.0 * within)).round();
             let key = (side, place as i64, within.to_bits());
-            // Cached results are complete even if another thread has failed while it held the lock.
-            let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some(beams) = known().get(&key) {
+            if let Some(beams) = self.known().get(&key) {
                 return Arc::clone(beams);
             }
             let beams = Arc::new(self.mirror_beams(place * 2.0 * within, side));
-            let mut known = known();
+            let mut known = self.known();
             if known.len() >= MOST_KNOWN {
                 known.clear();
             }
@@ -207,6 +210,11 @@ impl OpticalModel for SlatModel {
 
     fn scattered_through(&self, direction: Dir<Facade>, side: Side, emergent: &RingBasis) -> ScatteredLight {
         self.scattered_light(direction, side, emergent, false)
+    }
+
+    fn bytes(&self) -> usize {
+        let beams = self.known().values().map(|beams| size_of_val(&beams[..])).sum::<usize>();
+        beams + self.solved.bytes(|solved| solved.incident.iter().flatten().map(|row| size_of_val(&row[..])).sum())
     }
 }
 
@@ -477,5 +485,18 @@ mod tests {
         let reach = 0.072 / psi.tan();
         let leaves = (reach - (WIDTH - reach)).clamp(0.0, reach) / reach;
         assert!((turned[0].share - leaves).abs() < 2e-3, "{} {leaves}", turned[0].share);
+    }
+
+    #[test]
+    fn cached_beams_are_counted_once_for_neighbouring_directions() {
+        let specimen = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
+        let mut bytes = vec![specimen.bytes()];
+        for degrees in [60.0_f64, 60.01, 50.0] {
+            let beams = specimen.beams_about(direction_of(0.2, degrees.to_radians()), Side::Front, 1e-3);
+            // At these profile angles no light passes without touching a slat.
+            bytes.push(beams.len() * size_of::<MirrorBeam>());
+            assert_eq!(specimen.bytes(), bytes[1] + if degrees < 60.0 { bytes[3] } else { 0 }, "{degrees}");
+        }
+        assert!(bytes[0] == 0 && bytes[1] > 0 && bytes[3] > 0, "{bytes:?}");
     }
 }

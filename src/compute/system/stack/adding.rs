@@ -128,6 +128,10 @@ impl OpticalModel for Stack {
             layers => self.singles.scattered(layers, direction, side, emergent),
         }
     }
+
+    fn bytes(&self) -> usize {
+        self.singles.bytes() + self.layers.iter().map(|layer| layer.bytes()).sum::<usize>()
+    }
 }
 
 impl Stack {

@@ -91,6 +91,12 @@ impl Flows {
         Self { cells, weight, turn, layers, ends, error }
     }
 
+    /// Returns the memory of the matrices. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        let layers = self.layers.iter().flatten().flat_map(|way| [&way.through, &way.back]);
+        layers.chain(self.ends.iter().flatten()).map(|matrix| size_of_val(&matrix[..])).sum()
+    }
+
     /// Returns the share of the light of each cell in a gap, travelling in the given sense, that passes undeviated
     /// through all remaining layers; cells are those of light from the side `asked`.
     pub fn straight_out(&self, (gap, inwards): Place, asked: Side) -> Vec<f64> {

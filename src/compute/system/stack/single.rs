@@ -43,6 +43,11 @@ impl Emergent {
 }
 
 impl Singles {
+    /// Returns the memory of the flux matrices. \[bytes\]
+    pub fn bytes(&self) -> usize {
+        self.flows.bytes(Flows::bytes)
+    }
+
     /// Returns the beams that leave the stack for parallel light from `side` with the direction of undeviated light
     /// `direction`; layers may use the result of a direction at most `within` \[rad\] from the exact one.
     pub fn beams(

@@ -7,6 +7,7 @@ use crate::compute::system::Family;
 use crate::compute::system::laser_cut::{CutPanel, LaserCutPanel};
 use crate::compute::system::measure::beams::SharpBeams;
 use crate::compute::system::measure::directions::at_directions;
+use crate::compute::system::measure::upright::Upright;
 use crate::compute::system::measure::{Beam, OpticalModel, Setting, Side, front_basis};
 use crate::compute::system::panes::Panes;
 use crate::compute::system::panes::coated::Layer;
@@ -218,5 +219,23 @@ fn a_pane_before_a_blind_has_the_measured_totals() {
                 }
             }
         }
+    }
+}
+
+#[test]
+fn what_is_cached_in_a_stack_and_its_layers_is_counted() {
+    let cells = front_basis();
+    let n = cells.len();
+    let strands = Perforated { reflectance: [0.5; 3], ..STRANDS };
+    let stack = Upright(Box::new(Stack::new(vec![pane(CLEAR), strands.optical_model("").unwrap()])));
+    assert_eq!(stack.bytes(), 0);
+    for _ in 0..2 {
+        stack.scattered(Dir::from_theta_phi(0.6, 1.0), Side::Front, &cells);
+        // Of two layers for light from two sides, transmitted and reflected; of the one gap, for light that travels in
+        // two senses and leaves in two.
+        let flows = (2 * 2 * 2 + 2 * 2) * n * n * size_of::<f64>();
+        // Walls of 24 patches around and 4, then 8, through the sheet, for light that leaves the holes to either side.
+        let walls = 2 * (24 * 4 + 24 * 8) * n * size_of::<f32>();
+        assert_eq!(stack.bytes(), flows + walls);
     }
 }
