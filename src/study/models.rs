@@ -8,25 +8,28 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// Maximum number of stored models: two moving products with 21 states each. Chosen: cost only.
 const MOST: usize = 42;
 /// Memory of the results that the stored models have cached, above which those used longest ago are removed. \[bytes\]
-/// Chosen: cost only; the models of a blind with panes need 2 MB for each state, that of a perforated sheet 16 MB.
+/// Chosen: cost only; the models of a blind with panes need 2 MB for each state, those of perforated sheets more.
 const MOST_CACHED: usize = 48 << 20;
 
-/// Optical models with their descriptions, the one used last at the end; `None` for descriptions without a model.
+/// Optical models of descriptions, the one used last at the end; `None` for descriptions without a model.
+type List = VecDeque<(DescribedState, Option<SystemModel>)>;
+
+/// Stored optical models.
 #[derive(Default)]
-pub(super) struct Models(Mutex<VecDeque<(DescribedState, Option<SystemModel>)>>);
+pub(super) struct Models(Mutex<List>);
 
 impl Models {
     /// Returns the model of a description, which `make` creates if it is not stored. Two threads may create the same
     /// model at the same time; both then get that of the first.
     pub fn get(&self, described: &DescribedState, make: impl FnOnce() -> Option<SystemModel>) -> Option<SystemModel> {
-        if let Some(model) = self.find(described) {
+        if let Some(model) = find(&mut self.lock(), described) {
             return model;
         }
         let made = make();
-        if let Some(model) = self.find(described) {
+        let mut list = self.lock();
+        if let Some(model) = find(&mut list, described) {
             return model;
         }
-        let mut list = self.lock();
         let cached = |(_, model): &(_, Option<SystemModel>)| model.as_ref().map_or(0, SystemModel::bytes);
         while list.len() >= MOST || list.iter().map(cached).sum::<usize>() > MOST_CACHED {
             list.pop_front();
@@ -35,20 +38,19 @@ impl Models {
         made
     }
 
-    /// Returns the stored model of a description, which counts as used now.
-    fn find(&self, described: &DescribedState) -> Option<Option<SystemModel>> {
-        let mut list = self.lock();
-        let at = list.iter().position(|(known, _)| known == described)?;
-        let entry = list.remove(at)?;
-        let model = entry.1.clone();
-        list.push_back(entry);
-        Some(model)
-    }
-
     // What is stored is whole even if another thread has failed while it held the lock.
-    fn lock(&self) -> MutexGuard<'_, VecDeque<(DescribedState, Option<SystemModel>)>> {
+    fn lock(&self) -> MutexGuard<'_, List> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Returns the stored model of a description, which counts as used now; `None` if it is not stored.
+fn find(list: &mut List, described: &DescribedState) -> Option<Option<SystemModel>> {
+    let at = list.iter().position(|(known, _)| known == described)?;
+    let entry = list.remove(at)?;
+    let model = entry.1.clone();
+    list.push_back(entry);
+    Some(model)
 }
 
 #[cfg(test)]
