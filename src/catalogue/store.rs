@@ -11,8 +11,8 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
-/// Maximum number of decoded datasets that a connection holds in memory. Chosen: cost only; decoding takes milliseconds,
-/// and each may take megabytes.
+/// Maximum number of decoded datasets that a connection holds in memory. Chosen: cost only, no effect on results;
+/// data of 145 × 145 cells take up to 1.4 MB, tensor trees more.
 const RECENT: usize = 8;
 /// Position in the order of the catalogue of products that users add, after the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;

@@ -37,7 +37,7 @@ struct Solved {
 struct Seen {
     /// Flux on every patch (column) for light of every cell (row), per flux on the sheet; indexed by division of the
     /// thickness (of [`DEPTH`]), then by kind of the leaving light (transmitted, reflected), then by side. In single
-    /// precision: up to 0.8 million values each.
+    /// precision, which takes half of the memory.
     ways: [[[Once<Mat<f32>>; 2]; 2]; 2],
 }
 
