@@ -6,14 +6,16 @@ use crate::compute::btdf::Dataset;
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 use std::cell::RefCell;
 use std::collections::VecDeque;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
 /// Connection to the database file of a catalogue. It can move between threads; several threads open one each.
 #[derive(Debug)]
 pub struct Catalogue {
     pub(super) db: Connection,
-    /// Datasets used most recently, decoded, newest at the end.
-    pub(super) recent: RefCell<VecDeque<(String, Arc<Dataset>)>>,
+    /// Decoded datasets, each with its hash, as long as they are in use.
+    pub(super) decoded: RefCell<Vec<(String, Weak<Dataset>)>>,
+    /// Datasets used most recently, newest at the end.
+    pub(super) recent: RefCell<VecDeque<Arc<Dataset>>>,
     /// Computed datasets that cannot be stored because the file is read-only, with the keys of product and state.
     pub(super) held: RefCell<Vec<([String; 2], Arc<Dataset>)>>,
     /// Search index, with the revision of the database from which it was made.
@@ -33,6 +35,7 @@ impl Catalogue {
         db.set_prepared_statement_cache_capacity(64);
         Self {
             db,
+            decoded: RefCell::default(),
             recent: RefCell::default(),
             held: RefCell::default(),
             index: RefCell::default(),

@@ -11,9 +11,9 @@ use crate::formats::dataset_blob::decode;
 use rusqlite::{Connection, OptionalExtension, Row, Transaction, params};
 use std::sync::Arc;
 
-/// Maximum number of decoded datasets that a connection holds in memory. Chosen: cost only, no effect on results;
-/// data of 145 × 145 cells take up to 1.4 MB, tensor trees more.
-const RECENT: usize = 8;
+/// Maximum number of decoded datasets that a connection holds in memory though nobody else uses them. Chosen: cost only,
+/// no effect on results; data of 145 × 145 cells take up to 1.4 MB, tensor trees more.
+const MAX_RECENT: usize = 8;
 /// Position in the order of the catalogue of products that users add, after the built-in ones.
 pub(super) const USER_RANK: i64 = 1_000_000;
 
@@ -309,25 +309,28 @@ impl Catalogue {
         self.dataset_of_hash(hash, described_state(&product.system, &found.key))
     }
 
-    /// Returns the dataset with a hash, from memory if it was used recently, with the description of its product.
-    /// Products with the same dataset may have different descriptions.
+    /// Returns the dataset with a hash, with the description of its product: from memory if it is in use, or was used
+    /// recently. Products with the same dataset may have different descriptions.
     fn dataset_of_hash(&self, hash: &str, described: Option<DescribedState>) -> Result<Arc<Dataset>, CatalogueError> {
+        let mut decoded = self.decoded.borrow_mut();
+        let mut of_hash = decoded.iter().filter(|(known, _)| known == hash).filter_map(|(_, one)| one.upgrade());
+        let dataset = match of_hash.find(|dataset| dataset.described == described) {
+            Some(dataset) => dataset,
+            None => {
+                let blob = blob_of(&self.db, hash)?;
+                let cause = |cause| CatalogueError::Dataset { hash: hash.to_owned(), cause };
+                let dataset = Arc::new(Dataset { described, ..decode(&blob).map_err(cause)? });
+                decoded.retain(|(_, one)| one.strong_count() > 0);
+                decoded.push((hash.to_owned(), Arc::downgrade(&dataset)));
+                dataset
+            }
+        };
         let mut recent = self.recent.borrow_mut();
-        if let Some(at) = recent.iter().position(|(known, dataset)| known == hash && dataset.described == described)
-            && let Some(entry) = recent.remove(at)
-        {
-            let dataset = Arc::clone(&entry.1);
-            recent.push_back(entry);
-            return Ok(dataset);
-        }
-        let blob = blob_of(&self.db, hash)?;
-        let mut dataset = decode(&blob).map_err(|cause| CatalogueError::Dataset { hash: hash.to_owned(), cause })?;
-        dataset.described = described;
-        let dataset = Arc::new(dataset);
-        if recent.len() >= RECENT {
+        recent.retain(|one| !Arc::ptr_eq(one, &dataset));
+        recent.push_back(Arc::clone(&dataset));
+        if recent.len() > MAX_RECENT {
             recent.pop_front();
         }
-        recent.push_back((hash.to_owned(), Arc::clone(&dataset)));
         Ok(dataset)
     }
 

@@ -237,8 +237,8 @@ fn csv(year: &Year) -> String {
         }
         let tables = [Some(&year.light.values), Some(&year.light.errors), sun];
         for value in tables.into_iter().flatten().flat_map(|table| table.row(row)) {
-            text.push(',');
-            text.push_str(&number((*value).into()));
+            // All digits that a number of single precision has.
+            let _ = write!(text, ",{value}");
         }
         if let Some(dgp) = dgp {
             // Empty outside occupied hours and when dark.

@@ -7,16 +7,17 @@ use super::control::{ControlQuestion, Device, pick_state};
 use super::error::StudyError;
 use super::files;
 use super::goniophotometer::{Described, LayerLibrary};
-use super::models::Models;
 use super::outside::LitObstructions;
+use super::recent::Recent;
 use super::scene_file::{FamilyState, SystemKeys};
 use super::system::{Need, System, SystemLibrary, SystemModel, ideal};
 use crate::catalogue::{Catalogue, CatalogueError, Found, Product, Query};
-use crate::compute::btdf::{Btdf, Dataset};
+use crate::compute::btdf::{Btdf, Dataset, DescribedState};
 use crate::compute::estimate::Silent;
 use crate::formats::read_dataset;
 use crate::formats::system_toml::is_system_file;
-use std::collections::{HashMap, VecDeque};
+use std::collections::HashMap;
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::SystemTime;
@@ -26,20 +27,22 @@ use std::time::SystemTime;
 const OTHER_UNIT: f64 = 1.5;
 
 /// Library of systems: dataset and description files, ideal systems, and a catalogue that is opened when first needed.
-#[derive(Default)]
 pub struct Library {
     files: Mutex<HashMap<PathBuf, Loaded>>,
     catalogue_path: Option<PathBuf>,
     catalogue: Mutex<Option<Catalogue>>,
-    described: Mutex<Descriptions>,
-    models: Models,
+    /// Systems of description files, by the hash of their input, their state, and the extent of their data.
+    described: Recent<(String, Option<String>, Need), Arc<System>>,
+    /// Optical models of the descriptions that datasets carry; `None` for descriptions without a model.
+    models: Recent<DescribedState, Option<SystemModel>>,
     obstructions: LitObstructions,
 }
 
-/// Described systems, each with the hash of its input, its state, and the extent of its data.
-type Descriptions = VecDeque<((String, Option<String>, Need), Arc<System>)>;
-/// Maximum number of stored described systems: two moving products with 21 states each.
-const MOST_DESCRIBED: usize = 42;
+impl Default for Library {
+    fn default() -> Self {
+        Self::with_catalogue(None)
+    }
+}
 
 /// Systems of a dataset file, valid as long as time and length of the file do not change.
 type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
@@ -47,7 +50,14 @@ type Loaded = ((SystemTime, u64), Vec<Arc<System>>);
 impl Library {
     /// Creates a library with the catalogue at a path; `None`: the catalogue of the user.
     pub fn with_catalogue(path: Option<&Path>) -> Self {
-        Self { catalogue_path: path.map(Path::to_owned), ..Self::default() }
+        Self {
+            files: Mutex::default(),
+            catalogue_path: path.map(Path::to_owned),
+            catalogue: Mutex::default(),
+            described: Recent::new(|system| system.model.as_ref().map_or(0, SystemModel::bytes)),
+            models: Recent::new(|model| model.as_ref().map_or(0, SystemModel::bytes)),
+            obstructions: LitObstructions::default(),
+        }
     }
 
     /// Calls a function with the catalogue, which is opened if it is not open yet.
@@ -95,19 +105,7 @@ impl Library {
     fn load_description(&self, path: &Path, state: Option<&str>, need: Need) -> Result<Arc<System>, StudyError> {
         let described = Described::read(path)?;
         let key = (described.fingerprint(self)?, state.map(str::to_owned), need);
-        let known = |list: &Mutex<Descriptions>| {
-            list.lock().unwrap_or_else(PoisonError::into_inner).iter().find(|(other, _)| *other == key).cloned()
-        };
-        if let Some((_, system)) = known(&self.described) {
-            return Ok(system);
-        }
-        let system = Arc::new(described.system(state, need, self)?);
-        let mut list = self.described.lock().unwrap_or_else(PoisonError::into_inner);
-        if list.len() >= MOST_DESCRIBED {
-            list.pop_front();
-        }
-        list.push_back((key, Arc::clone(&system)));
-        Ok(system)
+        self.described.get(&key, || Ok(Arc::new(described.system(state, need, self)?)))
     }
 
     /// Returns the optical model for the description that a dataset carries; it is stored, together with its solutions.
@@ -115,7 +113,10 @@ impl Library {
     /// known.
     pub fn model_of(&self, dataset: &Dataset) -> Option<SystemModel> {
         let described = dataset.described.as_ref()?;
-        self.models.get(described, || system_model_from_text(&described.text, &described.state, self))
+        let Ok(model) = self
+            .models
+            .get::<Infallible>(described, || Ok(system_model_from_text(&described.text, &described.state, self)));
+        model
     }
 }
 

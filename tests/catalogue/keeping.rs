@@ -3,6 +3,7 @@
 use cfs::catalogue::{Catalogue, CatalogueError, Known, NewProduct, Provenance, Query, Words};
 use cfs::compute::btdf::{Btdf, Dataset};
 use std::path::Path;
+use std::sync::Arc;
 
 fn screen(name: &str, tau: f64) -> Dataset {
     let mut dataset = Dataset { name: name.into(), ..Dataset::default() };
@@ -42,6 +43,26 @@ fn other_words_are_found_and_the_key_stays() {
     let nameless = catalogue.describe(&key, &Words { name: "  ".to_owned(), ..words.clone() });
     assert!(matches!(nameless, Err(CatalogueError::NoName(_))));
     assert!(matches!(catalogue.describe("none", &words), Err(CatalogueError::NoProduct(_))));
+}
+
+#[test]
+fn a_dataset_in_use_is_read_once_however_many_others_are_read() {
+    let mut catalogue = Catalogue::empty_in_memory().unwrap();
+    let mut add = |number: u32| {
+        let dataset = screen(&format!("Screen {number}"), f64::from(number) / 100.0);
+        catalogue.import(&[dataset], NewProduct::default()).unwrap().key
+    };
+    let keys: Vec<String> = (1..=40).map(&mut add).collect();
+    let first = catalogue.dataset(&keys[0], None).unwrap();
+    for key in &keys {
+        catalogue.dataset(key, None).unwrap();
+    }
+    assert!(Arc::ptr_eq(&first, &catalogue.dataset(&keys[0], None).unwrap()));
+    // The last one is held although nobody uses it, until others have been read.
+    let last = Arc::downgrade(&catalogue.dataset(&keys[39], None).unwrap());
+    assert_eq!(last.strong_count(), 1);
+    keys[..39].iter().for_each(|key| drop(catalogue.dataset(key, None).unwrap()));
+    assert_eq!(last.strong_count(), 0);
 }
 
 #[test]

@@ -19,10 +19,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Maximum distance between the direction of a beam and one of these directions at which the latter is used: a
 /// millimetre on the floor of a room. The solar disc itself is seen in the direction of the beam. \[rad\]
 const SAME: f64 = 3e-4;
-/// Maximum memory of the beams that are stored: enough for 3,400 sun positions at 96 sensors. \[bytes\]
-const MOST: usize = 10_000_000;
-/// Approximate number of sun positions of a year.
-const SUNS: usize = 4500;
+/// Maximum memory of the beams that are stored: enough for 3,000 sun positions at 96 sensors. Chosen: cost only. \[bytes\]
+const MAX_BEAM_BYTES: usize = 10_000_000;
 /// Factors that mirror a direction at the planes along the aperture's axes.
 const IMAGES: [DVec3; 4] =
     [DVec3::ONE, DVec3::new(1.0, -1.0, 1.0), DVec3::new(-1.0, 1.0, 1.0), DVec3::new(-1.0, -1.0, 1.0)];
@@ -33,7 +31,15 @@ type Key = (usize, [u64; 3]);
 /// Responses of a room to beams, with the beams of 1 lm that were computed so far.
 pub(crate) struct UnitBeams {
     responses: BeamResponses,
-    known: Mutex<HashMap<Key, Arc<UnitBeam>>>,
+    known: Mutex<Known>,
+}
+
+/// Stored beams of 1 lm.
+#[derive(Default)]
+struct Known {
+    beams: HashMap<Key, Arc<UnitBeam>>,
+    /// Memory of all of them. \[bytes\]
+    bytes: usize,
 }
 
 /// Interreflected light of a beam of 1 lm at the sensors.
@@ -72,11 +78,9 @@ impl UnitBeams {
         Self { responses, known: Mutex::default() }
     }
 
-    /// Returns the memory that responses and beams take once the beams of a year are stored. \[bytes\]
+    /// Returns the memory that responses and beams take at most. \[bytes\]
     pub fn bytes(&self) -> usize {
-        let dark = self.responses.dark();
-        let one = 3 * dark.values.len() * size_of::<f32>() + dark.walls.len() * size_of::<bf16>();
-        self.responses.bytes() + MOST.min(SUNS * one)
+        self.responses.bytes() + MAX_BEAM_BYTES
     }
 
     /// Returns the responses of the sensors to beams of any direction.
@@ -98,13 +102,14 @@ impl UnitBeams {
         let key = (index, to.vector().to_array().map(f64::to_bits));
         // What is kept is whole even if another thread has failed while it held the lock.
         let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(unit) = known().get(&key) {
+        if let Some(unit) = known().beams.get(&key) {
             return Some(Arc::clone(unit));
         }
         let unit = Arc::new(UnitBeam::new(scene, index, to, radiosity, &self.responses));
         let mut known = known();
-        if known.len() * unit.bytes() < MOST {
-            known.insert(key, Arc::clone(&unit));
+        let bytes = known.bytes + unit.bytes();
+        if bytes <= MAX_BEAM_BYTES && known.beams.insert(key, Arc::clone(&unit)).is_none() {
+            known.bytes = bytes;
         }
         Some(unit)
     }
@@ -129,9 +134,10 @@ impl UnitBeam {
         Self { numbers: numbers.collect(), walls, patches }
     }
 
-    /// Returns the memory that the illuminances at the sensors take. \[bytes\]
+    /// Returns the memory of the beam's light and of its entry in the store. \[bytes\]
     fn bytes(&self) -> usize {
-        size_of_val(&self.numbers[..]) + size_of_val(&self.walls[..])
+        let lists = size_of_val(&self.numbers[..]) + size_of_val(&self.walls[..]) + size_of_val(&self.patches[..]);
+        lists + size_of::<Self>() + size_of::<Key>()
     }
 }
 

@@ -13,8 +13,9 @@ pub(super) const TOGETHER: usize = 32;
 pub(crate) struct Response {
     /// Interreflected illuminance per illuminance of each patch before interreflection. \[lx per lx\]
     pub value: Vec<f64>,
-    /// Differences of these between the fine and the coarse mesh, wall by wall; only the uncertainty depends on them, so
-    /// that two digits are enough. \[lx per lx\]
+    /// Differences of these between the fine and the coarse mesh, wall by wall. Only the uncertainty depends on them, so
+    /// that two digits are enough: in single precision it differed by up to 0.5 % of itself, in a year of an office
+    /// with sensors 5 to 20 mm from its walls. \[lx per lx\]
     pub walls: Vec<Vec<bf16>>,
 }
 

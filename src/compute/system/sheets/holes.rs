@@ -140,7 +140,9 @@ impl OpticalModel for Holes {
 
     fn bytes(&self) -> usize {
         let one = |matrix: &Mat<f32>| size_of::<f32>() * matrix.nrows() * matrix.ncols();
-        self.seen.bytes(|seen| seen.ways.iter().flatten().flatten().map(|way| way.bytes(one)).sum())
+        let solved = |solved: &Solved| size_of::<f64>() * solved.response.nrows() * solved.response.ncols();
+        self.walls.bytes(|walls| walls.iter().map(solved).sum())
+            + self.seen.bytes(|seen| seen.ways.iter().flatten().flatten().map(|way| way.bytes(one)).sum())
     }
 }
 

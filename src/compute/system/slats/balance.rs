@@ -26,6 +26,13 @@ pub(super) struct Balance {
     pub(super) uncertainty: [Vec<f64>; 2],
 }
 
+impl Balance {
+    /// Returns the memory of the solution, of which the matrix has nearly all. \[bytes\]
+    pub(super) fn bytes(&self) -> usize {
+        size_of::<f64>() * self.response.nrows() * self.response.ncols()
+    }
+}
+
 /// Maximum diffuse reflectance in the computation: white faces that exchange light only with each other would reflect
 /// it without end. Chosen: the system's condition number stays below some 1e10, which leaves six of the 16 digits of
 /// f64.

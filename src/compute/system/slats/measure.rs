@@ -125,7 +125,9 @@ fn measure(array: &SlatArray, setting: &Setting<'_>, progress: &dyn Progress) ->
         (*taken, *error) = (absorbed(&balance, from), uncertainties(&balance, from));
     };
     let Measured { front, back, .. } = &mut measured;
-    rayon::join(|| scattered(Side::Front, front), || scattered(Side::Back, back));
+    // One after the other: each is parallel already, and needs memory besides.
+    scattered(Side::Front, front);
+    scattered(Side::Back, back);
     progress.advance(STAGE, 3, 4);
     add_direct(array, setting, &mut measured);
     if transport.mirrored.iter().flatten().any(|mirrored| !(mirrored.through.is_empty() && mirrored.back.is_empty())) {

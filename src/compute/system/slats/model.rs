@@ -62,9 +62,8 @@ const FANS: usize = 128;
 /// Step of the profile angle at which the light scattered by matt faces is computed. \[rad\] Chosen: cost; linear
 /// between steps, to (0.5°)²/8 ≈ 1e-5 of the second derivative.
 const STEP: f64 = 0.5 * PI / 180.0;
-/// Maximum number of cached lists of reflected beams: those of both sides at steps of 0.1°. Chosen: memory only, no
-/// effect on results.
-const MOST_KNOWN: usize = 3600;
+/// Maximum number of cached lists of reflected beams: those of both sides at steps of 0.1°. Chosen: memory only.
+const MAX_KNOWN: usize = 3600;
 /// Seed of the rays' random steps, constant so that the same light always gives the same beams.
 const SEED: u64 = 1;
 /// Difference of profile angles below which two beams count as one. \[rad\] Above all rounding of f64, and 0.0002″.
@@ -164,7 +163,7 @@ impl OpticalModel for SlatModel {
             }
             let beams = Arc::new(self.mirror_beams(place * 2.0 * within, side));
             let mut known = self.known();
-            if known.len() >= MOST_KNOWN {
+            if known.len() >= MAX_KNOWN {
                 known.clear();
             }
             known.insert(key, Arc::clone(&beams));
@@ -214,7 +213,8 @@ impl OpticalModel for SlatModel {
 
     fn bytes(&self) -> usize {
         let beams = self.known().values().map(|beams| size_of_val(&beams[..])).sum::<usize>();
-        beams + self.solved.bytes(|solved| solved.incident.iter().flatten().map(|row| size_of_val(&row[..])).sum())
+        let rows = |solved: &Solved| solved.incident.iter().flatten().map(|row| size_of_val(&row[..])).sum::<usize>();
+        beams + self.solved.bytes(|solved| rows(solved) + solved.balance.bytes())
     }
 }
 
@@ -382,10 +382,10 @@ mod tests {
     }
 
     /// Transmitted and thrown back, of one direction, beams and all.
-    fn shares(specimen: &SlatModel, direction: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
+    fn shares(model: &SlatModel, direction: Dir<Facade>, side: Side, cells: &RingBasis) -> [f64; 2] {
         let mut sums = [0.0; 2];
-        specimen.beams(direction, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
-        let light = specimen.scattered(direction, side, cells);
+        model.beams(direction, side).iter().for_each(|beam| sums[usize::from(!beam.transmitted)] += beam.share);
+        let light = model.scattered(direction, side, cells);
         let solid = cells.projected_solid_angles();
         for (sum, q) in sums.iter_mut().zip([&light.transmitted, &light.reflected]) {
             *sum += q.iter().zip(&solid).map(|(q, w)| q * w).sum::<f64>();
@@ -399,11 +399,11 @@ mod tests {
         let cells = RingBasis::even(3_f64.to_radians());
         for faces in [[Surface::matt(0.7); 2], [Surface::mirror(0.8), Surface::matt(0.3)], [rough, Surface::matt(0.3)]]
         {
-            let specimen = SlatModel::new(array(0.006, 0.3, faces));
+            let model = SlatModel::new(array(0.006, 0.3, faces));
             for (side, theta) in Side::BOTH.into_iter().zip([0.4, 1.1]) {
                 let direction = Dir::from_theta_phi(theta, 1.9);
                 let (all, through) =
-                    (specimen.scattered(direction, side, &cells), specimen.scattered_through(direction, side, &cells));
+                    (model.scattered(direction, side, &cells), model.scattered_through(direction, side, &cells));
                 assert!(all.transmitted.iter().any(|q| *q > 0.0) && all.reflected.iter().any(|q| *q > 0.0));
                 assert!(all.transmitted == through.transmitted && through.reflected.is_empty());
             }
@@ -413,11 +413,11 @@ mod tests {
     /// What is left out where light comes from one side alone is what the other side's light does.
     #[test]
     fn light_from_one_side_meets_what_it_meets_beside_all_light() {
-        let specimen = SlatModel::new(array(0.006, 0.2, [Surface::mirror(0.8), Surface::matt(0.3)]));
-        let section = specimen.section();
+        let model = SlatModel::new(array(0.006, 0.2, [Surface::mirror(0.8), Surface::matt(0.3)]));
+        let section = model.section();
         let landed = |psi: f64, side: Side| beam(section, psi, side, SEED).incident[index(side)].clone();
         let grid = ProfileGrid::new(STEP);
-        let all = &specimen.solved().incident;
+        let all = &model.solved().incident;
         for node in (5..grid.len() - 5).step_by(17) {
             for side in Side::BOTH {
                 let own = landed(grid.psi(node), side);
@@ -441,13 +441,13 @@ mod tests {
             (0.0, 0.2, rough, 0.02),
         ] {
             let array = array(rise, tilt, faces);
-            let specimen = SlatModel::new(array.clone());
+            let model = SlatModel::new(array.clone());
             for side in Side::BOTH {
                 let psi = [-0.6, 0.1, 0.45, 0.9];
                 let known = array.profile_shares(side, &psi, 1, &Silent).unwrap();
                 for (psi, known) in psi.into_iter().zip(known) {
                     for x in [0.0, 0.6] {
-                        let found = shares(&specimen, direction_of(x, psi), side, &cells);
+                        let found = shares(&model, direction_of(x, psi), side, &cells);
                         let apart = (found[0] - known.transmitted).abs().max((found[1] - known.reflected).abs());
                         assert!(apart < bound, "{rise} {tilt} {side:?} {psi} {x}: {found:?} {known:?}");
                     }
@@ -458,13 +458,11 @@ mod tests {
 
     #[test]
     fn light_by_profile_angle_is_the_light_on_cells() {
-        let specimen = SlatModel::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
+        let model = SlatModel::new(array(0.0, 0.3, [Surface::matt(0.7); 2]));
         let cells = RingBasis::even(3_f64.to_radians());
         let direction = direction_of(0.3, 0.6);
-        let (on, by) = (
-            specimen.scattered(direction, Side::Front, &cells),
-            specimen.profile_light(direction, Side::Front).unwrap(),
-        );
+        let (on, by) =
+            (model.scattered(direction, Side::Front, &cells), model.profile_light(direction, Side::Front).unwrap());
         let largest = on.transmitted.iter().copied().fold(0.0, f64::max);
         for (cell, (a, b)) in on.transmitted.iter().zip(by.on(&cells)).enumerate() {
             assert!((a - b).abs() < 0.02 * largest, "{cell}: {a} {b}");
@@ -474,9 +472,9 @@ mod tests {
     #[test]
     fn a_flat_mirror_throws_one_beam_as_far_as_the_next_slat_lets_it() {
         // Level mirrors turn ψ into −ψ.
-        let specimen = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
+        let model = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
         let psi = 60_f64.to_radians();
-        let beams = specimen.beams(direction_of(0.2, psi), Side::Front);
+        let beams = model.beams(direction_of(0.2, psi), Side::Front);
         let turned: Vec<&Beam> = beams.iter().filter(|beam| beam.transmitted).collect();
         assert_eq!(turned.len(), 1, "{beams:?}");
         assert!(turned[0].directions[0].vector().distance(direction_of(0.2, -psi).vector()) < 1e-9);
@@ -489,12 +487,12 @@ mod tests {
 
     #[test]
     fn cached_beams_are_counted_once_for_neighbouring_directions() {
-        let specimen = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
+        let model = SlatModel::new(array(0.0, 0.0, [Surface::mirror(1.0), Surface::matt(0.0)]));
         let mut due = 0;
         for (degrees, is_new) in [(60.0_f64, true), (60.01, false), (50.0, true)] {
-            let mirrored = specimen.beams_about(direction_of(0.2, degrees.to_radians()), Side::Front, 1e-3).len();
+            let mirrored = model.beams_about(direction_of(0.2, degrees.to_radians()), Side::Front, 1e-3).len();
             due += if is_new { mirrored * size_of::<MirrorBeam>() } else { 0 };
-            assert!(specimen.bytes() == due && due > 0, "{degrees}");
+            assert!(model.bytes() == due && due > 0, "{degrees}");
         }
     }
 }

@@ -234,8 +234,10 @@ fn what_is_cached_in_a_stack_and_its_layers_is_counted() {
         // Of two layers for light from two sides, transmitted and reflected; of the one gap, for light that travels in
         // two senses and leaves in two.
         let flows = (2 * 2 * 2 + 2 * 2) * n * n * size_of::<f64>();
-        // Walls of 24 patches around and 4, then 8, through the sheet, for light that leaves the holes to either side.
-        let walls = 2 * (24 * 4 + 24 * 8) * n * size_of::<f32>();
+        // Walls of 24 patches around and 4, then 8, through the sheet: their interreflection, and their light by cell,
+        // for light that leaves the holes to either side.
+        let patches = [24 * 4, 24 * 8];
+        let walls: usize = patches.map(|p| p * p * size_of::<f64>() + 2 * p * n * size_of::<f32>()).iter().sum();
         assert_eq!(stack.bytes(), flows + walls);
     }
 }
