@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Maximum distance between the direction of a beam and one of these directions at which the latter is used: a
 /// millimetre on the floor of a room. The solar disc itself is seen in the direction of the beam. \[rad\]
 const SAME: f64 = 3e-4;
-/// Maximum memory of the beams that are stored: enough for 3,000 sun positions at 96 sensors. Chosen: cost only. \[bytes\]
+/// Maximum memory of the beams that are stored. \[bytes\] Chosen: cost only; others are computed again.
 const MAX_BEAM_BYTES: usize = 10_000_000;
 /// Factors that mirror a direction at the planes along the aperture's axes.
 const IMAGES: [DVec3; 4] =

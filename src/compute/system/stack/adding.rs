@@ -161,10 +161,10 @@ impl Stack {
                 return Err(Cancelled);
             }
             Ok(match layer.by_cell(&share, progress)? {
-                Some(sides) => Data { sides, by_cell: true },
+                Some(sides) => Data { sides, is_by_cell: true },
                 None => {
                     let Measured { front, back, .. } = layer.measure(&share, progress)?;
-                    Data { sides: [front, back], by_cell: false }
+                    Data { sides: [front, back], is_by_cell: false }
                 }
             })
         })
@@ -175,14 +175,14 @@ impl Stack {
 struct Data {
     sides: [OneSide; 2],
     /// Whether they have a coefficient for each cell ([`OpticalModel::by_cell`]) instead of one for each pair.
-    by_cell: bool,
+    is_by_cell: bool,
 }
 
 impl Data {
     /// Whether the layer is symmetric for the mirror images `image` of the cells, which have the same polar angles.
     /// `weight`: projected solid angles of the cells. \[sr\]
     fn fits(&self, image: &[usize], weight: &[f64]) -> bool {
-        self.by_cell || Halves::fits(image, weight, &self.sides)
+        self.is_by_cell || Halves::fits(image, weight, &self.sides)
     }
 }
 
@@ -247,26 +247,27 @@ impl Layered {
     /// counterpart of each cell by a rotation of 180° about the normal.
     fn new(data: Data, weight: &[f64], turn: &[usize], halves: &Halves) -> Self {
         let n = turn.len();
-        let Data { sides: [f, b], by_cell } = data;
-        let front = |q: Vec<f64>| {
-            if by_cell { halves.diagonal(|k| q[k] * weight[k]) } else { halves.matrix(|o, i| q[i * n + o] * weight[o]) }
+        let Data { sides: [front, back], is_by_cell } = data;
+        // `cell`: index in the data of each cell of the matrices.
+        let folded = |seen: OneSide, cell: &[usize]| {
+            let parts = |q: Vec<f64>| {
+                if is_by_cell {
+                    halves.diagonal(|k| q[cell[k]] * weight[k])
+                } else {
+                    halves.matrix(|o, i| q[cell[i] * n + cell[o]] * weight[o])
+                }
+            };
+            let list = |list: &[f64]| halves.list(|k| list[cell[k]]);
+            let (absorbed, error) = (list(&seen.absorbed), list(&seen.error));
+            (parts(seen.transmitted), parts(seen.reflected), absorbed, error)
         };
-        let back = |q: Vec<f64>| {
-            if by_cell {
-                halves.diagonal(|k| q[turn[k]] * weight[k])
-            } else {
-                halves.matrix(|o, i| q[turn[i] * n + turn[o]] * weight[o])
-            }
-        };
-        let own = |list: &[f64]| halves.list(|k| list[k]);
-        let named = |list: &[f64]| halves.list(|k| list[turn[k]]);
-        let [[t, t_odd], [t_back, t_back_odd]] = [front(f.transmitted), back(b.transmitted)];
-        let [[r, r_odd], [r_back, r_back_odd]] = [front(f.reflected), back(b.reflected)];
+        let ([t, t_odd], [r, r_odd], absorbed, error) = folded(front, &(0..n).collect::<Vec<_>>());
+        let ([t_back, t_back_odd], [r_back, r_back_odd], absorbed_back, error_back) = folded(back, turn);
         Self {
             even: Matrices { t: [t, t_back], r: [r, r_back] },
             odd: Matrices { t: [t_odd, t_back_odd], r: [r_odd, r_back_odd] },
-            absorbed: [own(&f.absorbed), named(&b.absorbed)],
-            error: [own(&f.error), named(&b.error)],
+            absorbed: [absorbed, absorbed_back],
+            error: [error, error_back],
         }
     }
 
