@@ -81,7 +81,7 @@ impl App {
             Outcome::Accuracy(result) => self.shell.results.accuracy.take(result),
             Outcome::Obstructions(effects) => self.shell.results.obstructions.put(Arc::new(effects)),
             Outcome::Lid(result) => self.shell.results.lid.take(result),
-            Outcome::Peaks(of, peaks) => self.shell.results.peaks = Some((of, peaks)),
+            Outcome::Peaks(of, peaks) => self.shell.results.peaks = peaks.map(|peaks| (of, peaks)),
             Outcome::Room(result) => self.computations.take_room(&mut self.shell, result),
             Outcome::Surfaces(result) => self.shell.results.surfaces.take(result),
             Outcome::Compared(id, what) => self.compare.take(id, *what),

@@ -44,7 +44,7 @@ pub fn facts(scene: &Scene, session: &Session, progress: &dyn Progress) -> Resul
     let room = session.room(scene, progress)?;
     Ok(Facts {
         data,
-        lid: Some(LidFacts { flux: lid.flux, peaks: Some(Peaks::of(&lid.lid)) }),
+        lid: Some(LidFacts { flux: lid.flux, peaks: Some(Peaks::of(&lid.lid, progress)?) }),
         room: Some(room.sensors.iter().map(|sensor| sensor.total()).collect()),
     })
 }

@@ -253,7 +253,7 @@ pub(super) fn choose(
     progress: &dyn Progress,
 ) -> Result<Choice, Cancelled> {
     let fine = step.unwrap_or(Step::FINE);
-    let averaged = Averaged::new(lid, aim, fine);
+    let averaged = Averaged::new(lid, aim, fine, progress)?;
     let with = |averaged: &Averaged, step: Step, tiling: Tiling, narrow: bool| {
         let tables = tables(averaged, tiling, place, narrow);
         Choice { tiling, step, reached: probe.reached(place.surface, &tables), tables, narrow }
@@ -293,7 +293,7 @@ pub(super) fn choose(
     }
     let best = best.unwrap_or_else(|| with(&averaged, fine, Tiling::WHOLE, false));
     if step.is_none() && best.reached.holds() {
-        let normal = with(&Averaged::new(lid, aim, Step::NORMAL), Step::NORMAL, best.tiling, best.narrow);
+        let normal = with(&Averaged::new(lid, aim, Step::NORMAL, progress)?, Step::NORMAL, best.tiling, best.narrow);
         if normal.reached.holds() {
             return Ok(normal);
         }

@@ -146,7 +146,8 @@ pub fn make(
         Tiles::None => {
             let step = options.step.unwrap_or_else(|| Step::for_lid(&lid));
             let tile = Tiling::WHOLE.tiles(place.surface, place.corner, lid.size)[0];
-            (None, step, None, vec![(tile, Arc::new(CGammaTable::new(&lid, aim, step)))])
+            let averaged = Averaged::new(&lid, aim, step, progress).map_err(StudyError::from)?;
+            (None, step, None, vec![(tile, Arc::new(averaged.table()))])
         }
         Tiles::Auto => {
             let probe = Probe::new(session, scene, aperture, options.without_beam, progress)?;
@@ -156,7 +157,8 @@ pub fn make(
         }
         Tiles::Fixed(tiling) => {
             let step = options.step.unwrap_or(Step::FINE);
-            let tables = tables(&Averaged::new(&lid, aim, step), tiling, place, true);
+            let averaged = Averaged::new(&lid, aim, step, progress).map_err(StudyError::from)?;
+            let tables = tables(&averaged, tiling, place, true);
             let probe = Probe::new(session, scene, aperture, options.without_beam, progress)?;
             (Some(tiling), step, Some(probe.reached(place.surface, &tables)), tables)
         }

@@ -141,7 +141,7 @@ impl Subject {
         progress.advance("luminous intensities", 1, STEPS);
         let lid = if asked.wanted.lid {
             let result = session.lid(&scene, 0, progress)?;
-            let peaks = Peaks::of(&result.lid);
+            let peaks = Peaks::of(&result.lid, progress)?;
             Some((result, peaks))
         } else {
             None

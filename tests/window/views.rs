@@ -12,6 +12,7 @@ use cfs::app::views::{btdf, control, lid, room, sky, transmittance};
 use cfs::compute::basis::{AzimuthMap, RingBasis};
 use cfs::compute::btdf::{AngularTransmittance, Btdf, CellMatrix};
 use cfs::compute::direction::{Dir, Emergent, Facade, Incident, Surface};
+use cfs::compute::estimate::Silent;
 use cfs::compute::lid::c_gamma::Peaks;
 use cfs::compute::lid::{EmergentLuminance, Lid, SunBeam};
 use egui::accesskit::Toggled;
@@ -437,7 +438,7 @@ type Slats = (Vec<control::StatePoint>, Vec<[f64; 2]>, Vec<control::TracePoint>,
 /// All six tiles as the window shows them.
 fn bench(size: [f32; 2], theme: Theme) -> Harness<'static, Bench> {
     let (product, body, cells, paths) = (laser_cut(), redirecting_lid(), grid(16, 24), sun_paths());
-    let peaks = Peaks::of(&body);
+    let peaks = Peaks::of(&body, &Silent).unwrap();
     let (states, curve, today, year) = slats();
     let app = move |ui: &mut Ui, bench: &mut Bench| {
         let full = ui.available_rect_before_wrap();
@@ -600,7 +601,7 @@ fn pictures_of_the_bench() {
         results.add(h.try_snapshot(name));
     }
     let (product, body) = (laser_cut(), redirecting_lid());
-    let peaks = Peaks::of(&body);
+    let peaks = Peaks::of(&body, &Silent).unwrap();
     let mut wide = tile([760.0, 400.0], Theme::Dark, |ui, bench| {
         btdf::show(ui, &btdf_input(&product, bench.incident), &mut bench.btdf.0);
     });

@@ -283,8 +283,7 @@ impl Columns {
                 Part::Room => Compared::Room(engine.room(&question, job)),
                 Part::Surfaces => Compared::Surfaces(engine.surfaces(&question, job)),
                 Part::Peaks => lid.map_or_else(missing, |lid| {
-                    let peaks = Peaks::of(&lid.lid);
-                    Compared::Peaks(lid, peaks)
+                    Peaks::of(&lid.lid, job).map_or_else(|_| missing(), |peaks| Compared::Peaks(lid, peaks))
                 }),
                 Part::Year => {
                     year.map_or_else(missing, |(key, product)| Compared::Year(control::year(&product, key, job)))

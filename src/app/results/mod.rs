@@ -263,8 +263,8 @@ impl Computations {
         }
         let figures = figures.clone();
         self.asked_peaks = Some(figures.clone());
-        shell.start(Lane::Lid, move |_| {
-            let peaks = Peaks::of(&figures.lid);
+        shell.start(Lane::Lid, move |job| {
+            let peaks = Peaks::of(&figures.lid, job).ok();
             Outcome::Peaks(figures, peaks)
         });
     }

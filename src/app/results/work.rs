@@ -67,8 +67,8 @@ pub enum Outcome {
     OpenedWeather(PathBuf),
     /// Luminous intensity distribution (LID) of the first aperture.
     Lid(Result<LidFigures, AppError>),
-    /// Largest intensities of a LID, with this LID.
-    Peaks(Arc<LidFigures>, Peaks),
+    /// Largest intensities of a LID, with this LID; `None` if their search was cancelled.
+    Peaks(Arc<LidFigures>, Option<Peaks>),
     /// Illuminances at the sensor points in the room.
     Room(Result<RoomFigures, AppError>),
     /// Part of the results of a candidate of the comparison, by its number.

@@ -22,7 +22,7 @@ pub use panel::Panel;
 
 use super::{EmergentLuminance, Intensities, Lid};
 use crate::compute::direction::{Dir, Emergent, Facade, Surface};
-use crate::compute::estimate::Estimate;
+use crate::compute::estimate::{Cancelled, Estimate, Progress, Silent};
 use glam::DVec3;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -195,8 +195,11 @@ pub struct Peaks {
 
 impl Peaks {
     /// Returns the largest intensities in the C-γ table that a luminaire file of this aperture contains.
-    pub fn of(lid: &Lid) -> Self {
-        CGammaTable::new(lid, Aim::of(lid.surface), Step::for_lid(lid)).peaks()
+    ///
+    /// # Errors
+    /// Returns [`Cancelled`] if `progress` is cancelled.
+    pub fn of(lid: &Lid, progress: &dyn Progress) -> Result<Self, Cancelled> {
+        Ok(Averaged::new(lid, Aim::of(lid.surface), Step::for_lid(lid), progress)?.table().peaks())
     }
 }
 
@@ -204,7 +207,10 @@ impl CGammaTable {
     /// Creates the table of a distribution from its means over the solid angles around the nodes; every beam is spread
     /// over the four nodes around it.
     pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
-        Averaged::new(lid, aim, step).table()
+        match Averaged::new(lid, aim, step, &Silent) {
+            Ok(averaged) => averaged.table(),
+            Err(Cancelled) => unreachable!("nobody can cancel it"),
+        }
     }
 
     /// Returns the number of C-planes; C = 360° is not repeated.

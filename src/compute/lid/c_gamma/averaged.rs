@@ -4,7 +4,7 @@
 use super::spots::{self, Spot};
 use super::{Aim, CGammaTable, Panel, Step, narrow};
 use crate::compute::direction::{Dir, Facade};
-use crate::compute::estimate::Estimate;
+use crate::compute::estimate::{Cancelled, Estimate, Progress};
 use crate::compute::lid::{EmergentLuminance, Lid, SunBeam};
 use rayon::prelude::*;
 use std::f64::consts::PI;
@@ -34,7 +34,10 @@ impl Averaged {
     ///
     /// Components that are functions are integrated by adaptive Gauss points, those on cells and by profile angle by
     /// sub-sampling; both are split at the façade's plane and at the horizon. Negative luminances count as negative.
-    pub fn new(lid: &Lid, aim: Aim, step: Step) -> Self {
+    ///
+    /// # Errors
+    /// Returns [`Cancelled`] if `progress` is cancelled.
+    pub fn new(lid: &Lid, aim: Aim, step: Step, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let grid = Grid { aim, step };
         let area = lid.area();
         let mut node_flux = vec![0.0; grid.planes() * grid.angles()];
@@ -43,16 +46,16 @@ impl Averaged {
         for part in &lid.parts {
             // Flux per area of the aperture \[lm/m²\] into the cell of each node.
             let (shares, total) = match part {
-                EmergentLuminance::Uniform(l) => (grid.collect(&|_| *l, Rule::Smooth), Some(PI * l)),
+                EmergentLuminance::Uniform(l) => (grid.collect(&|_| *l, Rule::Smooth, progress)?, Some(PI * l)),
                 EmergentLuminance::Cells { basis, luminance } => {
                     let exact = basis.projected_solid_angles().iter().zip(luminance).map(|(w, l)| w * l).sum();
                     let at = |d: Dir<Facade>| basis.index(d).map_or(0.0, |cell| luminance[cell]);
-                    (grid.collect(&at, Rule::Piecewise), Some(exact))
+                    (grid.collect(&at, Rule::Piecewise, progress)?, Some(exact))
                 }
                 EmergentLuminance::Bands(light) => {
-                    (grid.collect(&|d| light.at(d), Rule::Piecewise), Some(light.share()))
+                    (grid.collect(&|d| light.at(d), Rule::Piecewise, progress)?, Some(light.share()))
                 }
-                EmergentLuminance::Function(f) => (grid.collect(&|d| f(d), Rule::Smooth), None),
+                EmergentLuminance::Function(f) => (grid.collect(&|d| f(d), Rule::Smooth, progress)?, None),
             };
             let sum: f64 = shares.iter().map(|share| share.value).sum();
             let error: f64 = shares.iter().map(|share| share.error).sum();
@@ -66,7 +69,7 @@ impl Averaged {
                 *node += share.value * closing * area;
             }
         }
-        Self {
+        Ok(Self {
             grid,
             node_flux,
             flux,
@@ -74,7 +77,7 @@ impl Averaged {
             lid: lid.clone(),
             scattered: OnceLock::new(),
             steep: OnceLock::new(),
-        }
+        })
     }
 
     /// Returns the C-γ table of the whole aperture, with every beam spread over the four nodes around it.
@@ -200,7 +203,12 @@ impl Grid {
     }
 
     /// Integrates L cosθ dω over the cell of every node, plane by plane.
-    fn collect(self, luminance: &(dyn Fn(Dir<Facade>) -> f64 + Sync), rule: Rule) -> Vec<Estimate> {
+    fn collect(
+        self,
+        luminance: &(dyn Fn(Dir<Facade>) -> f64 + Sync),
+        rule: Rule,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Estimate>, Cancelled> {
         let delta = self.step.radians();
         let angles = self.angles();
         // Flux per area of the aperture and per dC dγ.
@@ -212,6 +220,10 @@ impl Grid {
         (0..self.planes() * angles)
             .into_par_iter()
             .map(|node| {
+                // The luminance behind obstructions takes seconds for all nodes.
+                if progress.cancelled() {
+                    return Err(Cancelled);
+                }
                 let (c, gamma) = ((node / angles) as f64 * delta, (node % angles) as f64 * delta);
                 // Nodes lie in the façade's plane and on the horizon: their cells are divided there.
                 let cuts = [[-0.5, 0.0], [0.0, 0.5]];
@@ -231,7 +243,7 @@ impl Grid {
                         };
                     }
                 }
-                sum
+                Ok(sum)
             })
             .collect()
     }

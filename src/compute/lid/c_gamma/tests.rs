@@ -5,6 +5,7 @@ use crate::compute::basis::{AzimuthMap, RingBasis};
 use crate::compute::lid::SunBeam;
 use crate::compute::system::measure::ProfileLight;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn lid(parts: Vec<EmergentLuminance>) -> Lid {
     Lid { surface: Surface::Facade, size: [1.2, 1.0], parts, beams: Vec::new() }
@@ -197,7 +198,7 @@ fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
     let scattered = lid(vec![glow(spot.undeviated_incident())]);
     let both = Lid { beams: vec![SunBeam { direction: beam, flux: 900.0, straight: true }], ..scattered.clone() };
     let table = CGammaTable::new(&both, Aim::Mounted, Step::for_lid(&both));
-    let peaks = Peaks::of(&both);
+    let peaks = Peaks::of(&both, &Silent).unwrap();
     let near =
         |peak: &Peak, to: Emergent| Aim::Mounted.direction(peak.c, peak.gamma).0.dot(to.0) > 1.1_f64.to_radians().cos();
     let (own, sun) = (peaks.scattered.unwrap(), peaks.beam.unwrap());
@@ -209,5 +210,31 @@ fn peaks_are_the_tables_largest_values_of_scattered_light_and_of_beams() {
     let alone = alone.scattered.unwrap();
     assert_eq!((alone.c, alone.gamma), (own.c, own.gamma));
     assert!((alone.intensity / own.intensity - 1.0).abs() < 5e-3, "{alone:?} {own:?}");
-    assert!(Peaks::of(&lid(vec![])).scattered.is_none());
+    assert!(Peaks::of(&lid(vec![]), &Silent).unwrap().scattered.is_none());
+}
+
+#[test]
+fn a_table_that_is_no_longer_needed_ends_soon() {
+    /// Cancelled from the hundredth question on.
+    #[derive(Default)]
+    struct Hundred(AtomicUsize);
+    impl Progress for Hundred {
+        fn cancelled(&self) -> bool {
+            self.0.fetch_add(1, Ordering::Relaxed) >= 100
+        }
+    }
+    let asked = Arc::new(AtomicUsize::new(0));
+    let counted = Arc::clone(&asked);
+    let light = lid(vec![EmergentLuminance::Function(Arc::new(move |_| {
+        counted.fetch_add(1, Ordering::Relaxed);
+        100.0
+    }))]);
+    let points = |progress: &dyn Progress| {
+        let is_cancelled = Peaks::of(&light, progress).is_err();
+        (is_cancelled, asked.swap(0, Ordering::Relaxed))
+    };
+    let (is_cancelled, whole) = points(&Silent);
+    assert!(!is_cancelled);
+    let (is_cancelled, part) = points(&Hundred::default());
+    assert!(is_cancelled && 20 * part < whole, "{part} of {whole}");
 }

@@ -18,6 +18,10 @@ fn panel(surface: Surface, centre: [f64; 3], size: [f64; 2]) -> Panel {
     Panel { centre: DVec3::from_array(centre), size, surface, room: ROOM, rim: [[true; 2]; 2] }
 }
 
+fn averaged(lid: &Lid, aim: Aim, step: Step) -> Averaged {
+    Averaged::new(lid, aim, step, &Silent).unwrap()
+}
+
 /// Horizontal illuminance that a reader of the table finds on the work plane. [lx]
 fn on_work_plane(table: &CGammaTable, panel: &Panel, x: f64, y: f64) -> f64 {
     let ray = DVec3::new(x, y, WORK_PLANE) - panel.centre;
@@ -38,7 +42,7 @@ fn a_beam_through_a_tile_lights_its_outline_evenly_and_nothing_beside() {
         let direction = Emergent(Dir::new(surface.facade_from_room(way)).unwrap());
         let beam = SunBeam { direction, flux: 600.0, straight: true };
         let table =
-            Averaged::new(&lid(&panel, Vec::new(), vec![beam]), Aim::of(surface), Step::NORMAL).tile(&panel, 1.0, true);
+            averaged(&lid(&panel, Vec::new(), vec![beam]), Aim::of(surface), Step::NORMAL).tile(&panel, 1.0, true);
         assert!((table.zonal_flux() / 600.0 - 1.0).abs() < 1e-9 && table.flux.value == 600.0);
         let landing = |x: f64, y: f64| {
             let from = panel.centre + surface.room_from_facade(DVec3::new(x, y, 0.0));
@@ -82,7 +86,7 @@ fn beams_of_tiles_side_by_side_leave_no_ridge_between_them() {
         let rim = [[column == 0, column == 1], [row == 0, row == 1]];
         let panel = Panel { rim, ..panel(Surface::Facade, centre, [0.2, 0.2]) };
         let lid = lid(&panel, Vec::new(), vec![beam]);
-        (Averaged::new(&lid, Aim::Mounted, Step::FINE).tile(&panel, 1.0, true), panel)
+        (averaged(&lid, Aim::Mounted, Step::FINE).tile(&panel, 1.0, true), panel)
     };
     let tiles: Vec<_> = (0..4).map(|k| tile(k % 2, k / 2)).collect();
     let alike = 600.0 * -way.z / (0.04 * way.y);
@@ -106,7 +110,7 @@ fn narrow_scattered_light_is_as_wide_as_the_tile_and_what_it_lights() {
     let spot = to.undeviated_incident();
     let light = move |undeviated: Dir<Facade>| 40.0 + 1e6 * ((undeviated.dot(spot) - 1.0) / 3e-4).exp();
     let lid = lid(&panel, vec![EmergentLuminance::Function(Arc::new(light))], Vec::new());
-    let averaged = Averaged::new(&lid, Aim::Mounted, Step::FINE);
+    let averaged = averaged(&lid, Aim::Mounted, Step::FINE);
     assert!(averaged.same_for_all(false) && !averaged.same_for_all(true));
     // What the tile itself does: a sum over it.
     let own = |x: f64, y: f64| {
